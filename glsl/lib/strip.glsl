@@ -1,0 +1,19 @@
+// The camera-facing strip that stands for a round fiber; twin: src/math/strip.rs.
+#ifndef WORSTED_STRIP
+#define WORSTED_STRIP
+
+#include "frame.glsl"
+
+// Unit vector across the strip at a point of a fiber: perpendicular to the fiber and to the line of
+// sight. Seen end on, the fiber has no side; any perpendicular of the line of sight will do.
+vec3 strip_side(vec3 tangent, vec3 to_eye) {
+    return direction_or(cross(tangent, to_eye), any_perpendicular(to_eye));
+}
+
+// Outward normal of the round fiber at `across` in [-1, 1] of its strip.
+vec3 strip_normal(vec3 tangent, vec3 side, float across) {
+    vec3 facing = cross(side, tangent);
+    return across * side + sqrt(max(0.0, 1.0 - across * across)) * facing;
+}
+
+#endif

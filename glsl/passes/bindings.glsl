@@ -1,0 +1,16 @@
+// What the passes over fibers read; twin of the set layouts: src/passes/fibers.rs.
+#ifndef WORSTED_BINDINGS
+#define WORSTED_BINDINGS
+
+#include "../shared/layouts.glsl"
+#include "../shared/features.glsl"
+
+layout(std140, set = 0, binding = 0) uniform FrameBlock { Frame frame; };
+layout(std430, set = 0, binding = 1) buffer StatisticsBlock { Statistics statistics; };
+
+layout(std430, set = 1, binding = 0) readonly buffer ControlPointBlock { ControlPoint control_points[]; };
+layout(std430, set = 1, binding = 1) readonly buffer SegmentBlock { Segment segments[]; };
+layout(std430, set = 1, binding = 2) readonly buffer FiberBlock { Fiber fibers[]; };
+layout(std430, set = 1, binding = 3) readonly buffer YarnBlock { Yarn yarn; };
+
+#endif

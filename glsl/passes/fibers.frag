@@ -1,0 +1,60 @@
+#version 460
+// Shades a fiber: Wu & Yuksel 2019's simple model under one directional light and constant ambient.
+#extension GL_GOOGLE_include_directive : require
+#include "bindings.glsl"
+#include "../bsdf/simple.glsl"
+#include "../lib/strip.glsl"
+#include "../shading/occlusion.glsl"
+
+layout(location = 0) in vec3 fragment_position;
+layout(location = 1) in vec3 fragment_tangent;
+layout(location = 2) in vec4 fragment_side;
+layout(location = 3) in float fragment_distance;
+layout(location = 4) flat in uint fragment_fiber;
+
+layout(location = 0) out vec4 radiance;
+
+const uint VIEW_SHADED = 0;
+const uint VIEW_NORMAL = 1;
+const uint VIEW_TANGENT = 2;
+const uint VIEW_OCCLUSION = 3;
+const uint VIEW_PLY = 4;
+
+vec3 shade(vec3 tangent, vec3 normal, vec3 to_eye, float visibility) {
+    vec3 sum = vec3(0.0);
+    if (LIGHT) {
+        vec3 to_light = frame.light_direction_world.xyz;
+        vec3 scattering = simple_diffuse(yarn.diffuse.rgb, normal, to_light);
+        if (SPECULAR) {
+            scattering += yarn.specular.rgb * simple_specular_cos(tangent, to_light, to_eye, yarn.specular.a);
+        }
+        sum += scattering * frame.light_irradiance.rgb;
+    }
+    if (AMBIENT) {
+        // Constant light from everywhere: the diffuse lobe's integral is its strength.
+        sum += yarn.diffuse.rgb * frame.ambient_radiance.rgb * visibility;
+    }
+    return sum;
+}
+
+vec3 ply_color(uint ply) {
+    return 0.5 + 0.45 * cos(TWO_PI * (float(ply) / float(yarn.ply_count) + vec3(0.0, 1.0, 2.0) / 3.0));
+}
+
+void main() {
+    vec3 tangent = direction_or(fragment_tangent, vec3(1.0, 0.0, 0.0));
+    vec3 side = normal_perpendicular_to(tangent, fragment_side.xyz);
+    vec3 normal = strip_normal(tangent, side, clamp(fragment_side.w, -1.0, 1.0));
+    vec3 to_eye = direction_or(frame.eye_world.xyz - fragment_position, vec3(0.0, 0.0, 1.0));
+    float visibility = DISTANCE_OCCLUSION ? distance_occlusion(yarn.occlusion, fragment_distance) : 1.0;
+
+    vec3 color;
+    switch (DEBUG_VIEW) {
+        case VIEW_NORMAL: color = 0.5 + 0.5 * normal; break;
+        case VIEW_TANGENT: color = 0.5 + 0.5 * tangent; break;
+        case VIEW_OCCLUSION: color = vec3(visibility); break;
+        case VIEW_PLY: color = ply_color(fibers[fragment_fiber].ply); break;
+        default: color = shade(tangent, normal, to_eye, visibility); break;
+    }
+    radiance = vec4(color, 1.0);
+}

@@ -1,0 +1,12 @@
+// Numbers that shaders and the host must agree on; src/gpu_types.rs reads this file's values in a test.
+#ifndef WORSTED_CONSTANTS
+#define WORSTED_CONSTANTS
+
+const float PI = 3.14159265358979;
+const float TWO_PI = 6.28318530717959;
+
+// Isolines one patch may carry: the smallest maximum tessellation level Vulkan guarantees.
+// A yarn with more fibers is drawn as several instances of its patches.
+const uint FIBERS_PER_PATCH = 64;
+
+#endif

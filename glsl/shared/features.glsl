@@ -1,0 +1,14 @@
+// Specialization constants: what this pipeline holds. Twin: src/scene/features.rs, `SpecializationId`.
+#ifndef WORSTED_FEATURES
+#define WORSTED_FEATURES
+
+layout(constant_id = 0) const uint BASIS = 0;            // src/math/curve.rs, `Basis`
+layout(constant_id = 1) const bool CULLING = true;
+layout(constant_id = 2) const bool DISTANCE_OCCLUSION = true;
+layout(constant_id = 3) const bool STATISTICS = false;
+layout(constant_id = 4) const bool SPECULAR = true;
+layout(constant_id = 5) const bool AMBIENT = true;
+layout(constant_id = 6) const bool LIGHT = true;
+layout(constant_id = 7) const uint DEBUG_VIEW = 0;       // src/scene/features.rs, `DebugView`
+
+#endif

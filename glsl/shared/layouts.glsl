@@ -1,0 +1,73 @@
+// Every struct the host writes; twins in src/gpu_types.rs, held equal by tests/layouts.rs.
+#ifndef WORSTED_LAYOUTS
+#define WORSTED_LAYOUTS
+
+// One control point of a yarn: 16 bytes. Lengths in mm, relative to the scene's origin.
+struct ControlPoint {
+    vec3 position;
+    uint normal_octahedral; // rest-frame normal of the knot, two 16-bit snorms
+};
+
+// One cubic piece of a yarn: 48 bytes. Turns are reduced to [0, 1) on the host in f64; a delta is
+// what the piece adds, never the difference of two reduced values.
+struct Segment {
+    uint first_point;       // of four consecutive control points
+    uint curve;
+    int migration_period;   // whole periods of R before this piece
+    uint padding;
+    float ply_turns;        // ply rotation about the yarn, in turns
+    float fiber_turns;      // fiber twist inside the ply frame, in turns
+    float migration_turns;  // phase of R, in turns
+    float padding2;
+    float ply_turns_delta;
+    float fiber_turns_delta;
+    float migration_turns_delta;
+    float padding3;
+};
+
+// One fiber of the cross-section: 16 bytes.
+struct Fiber {
+    float radius;           // R_i, 0..1 of the ply's ellipse
+    float angle;            // theta_i, radians, in the ply frame
+    float migration_phase;  // m_i, radians
+    uint ply;
+};
+
+// What all yarns of one fabric share. Lengths in mm.
+struct Yarn {
+    uint ply_count;
+    uint fiber_count;       // of all plies together
+    float ply_offset;       // ply centre's distance from the yarn's centre: yarn_radius / 2
+    float ellipse_short;    // e_N, radial
+    float ellipse_long;     // e_B, tangential
+    float migration_min;    // R_min
+    float migration_max;    // R_max
+    float fiber_radius;
+    float outer_radius;
+    float subdivisions_per_turn;
+    uint max_subdivisions;
+    uint segment_count;
+    vec4 occlusion;         // visibility as a cubic of (distance from the centre / outer_radius)
+    vec4 diffuse;           // k_d, rgb
+    vec4 specular;          // k_s, rgb; a: beta, radians
+};
+
+// What one picture of the scene needs. World space: mm, relative to the scene's origin.
+struct Frame {
+    mat4 clip_from_world;
+    vec4 eye_world;             // xyz
+    vec4 frustum_world[5];      // inward planes: left, right, bottom, top, near; n . x + w >= 0 inside
+    vec4 light_direction_world; // xyz: unit, toward the light
+    vec4 light_irradiance;      // rgb, on a surface facing the light
+    vec4 ambient_radiance;      // rgb
+};
+
+// Counted by the control stage; each count is two words, low then high.
+struct Statistics {
+    uint patches_drawn;
+    uint patches_culled;
+    uint fiber_segments_low;
+    uint fiber_segments_high;
+};
+
+#endif

@@ -1,0 +1,113 @@
+// The one function that places a fiber; twin: src/yarn/fiber.rs.
+#ifndef WORSTED_FIBER
+#define WORSTED_FIBER
+
+#include "../shared/constants.glsl"
+#include "../shared/layouts.glsl"
+#include "../lib/curve.glsl"
+#include "../lib/frame.glsl"
+#include "migration.glsl"
+
+// Rotations at one point of a yarn, and what the whole piece adds to them; radians.
+struct Twist {
+    float ply;
+    float fiber;
+    float migration;
+    float ply_rate;
+    float fiber_rate;
+    float migration_rate;
+};
+
+// The yarn's centre and orthonormal frame at one point.
+struct YarnPoint {
+    vec3 center;
+    vec3 tangent;
+    vec3 normal;
+    float speed;    // |d center / dt|
+    vec3 bend;      // d^2 center / dt^2
+};
+
+struct FiberPoint {
+    vec3 yarn_center;
+    vec3 ply_center;
+    vec3 position;
+    vec3 tangent;          // unit, along the fiber
+    float center_distance; // from the yarn's centre line, in the cross-section
+};
+
+// Rotations at t of a piece. Reduced before the multiplication by 2 pi, so that no angle is large.
+Twist twist_at(Segment segment, float t) {
+    Twist twist;
+    twist.ply = TWO_PI * fract(segment.ply_turns + t * segment.ply_turns_delta);
+    twist.fiber = TWO_PI * fract(segment.fiber_turns + t * segment.fiber_turns_delta);
+    twist.migration = TWO_PI * fract(segment.migration_turns + t * segment.migration_turns_delta);
+    twist.ply_rate = TWO_PI * segment.ply_turns_delta;
+    twist.fiber_rate = TWO_PI * segment.fiber_turns_delta;
+    twist.migration_rate = TWO_PI * segment.migration_turns_delta;
+    return twist;
+}
+
+// Unit tangent of the Bezier piece `b` where its derivative is `derivative`. A cusp or a zero-length
+// piece has none: the chord stands in, then the legs.
+vec3 piece_tangent(vec3 b[4], vec3 derivative) {
+    return direction_or(derivative, direction_or(b[3] - b[0], direction_or(b[2] - b[1], vec3(1.0, 0.0, 0.0))));
+}
+
+// The unit `normal`, perpendicular to `from`, turned by the smallest rotation that takes the unit
+// tangent `from` to `to`, times 1 + from . to: no division, so no pole where the yarn doubles back.
+vec3 turned_normal(vec3 from, vec3 to, vec3 normal) {
+    return (1.0 + dot(from, to)) * normal - dot(normal, to) * (from + to);
+}
+
+// Centre and frame at t of the Bezier piece `b` whose knots carry the given unit normals. Both
+// normals are turned to the tangent at t and blended, the nearer one and the less turned one first.
+YarnPoint yarn_point(vec3 b[4], vec3 normal_start, vec3 normal_end, float t) {
+    CurvePoint c = bezier_point(b, t);
+    YarnPoint y;
+    y.center = c.position;
+    y.speed = length(c.derivative);
+    y.bend = c.second_derivative;
+    y.tangent = piece_tangent(b, c.derivative);
+    vec3 start = turned_normal(piece_tangent(b, b[1] - b[0]), y.tangent, normal_start);
+    vec3 end = turned_normal(piece_tangent(b, b[3] - b[2]), y.tangent, normal_end);
+    y.normal = normal_perpendicular_to(y.tangent, (1.0 - t) * start + t * end);
+    return y;
+}
+
+// Wu & Yuksel 2019, Sec. 3.1: ply centre, then the fiber inside the ply's rotating elliptical frame.
+FiberPoint fiber_point(YarnPoint yarn_at, Twist twist, Yarn yarn, Fiber fiber) {
+    float ply_angle = TWO_PI * float(fiber.ply) / float(yarn.ply_count) + twist.ply;
+    float fiber_angle = fiber.angle + twist.fiber;
+    float cos_fiber = cos(fiber_angle);
+    float sin_fiber = sin(fiber_angle);
+    vec2 r = migration_radius(fiber.radius, fiber.migration_phase + twist.migration,
+                              yarn.migration_min, yarn.migration_max);
+    float radius_rate = r.y * twist.migration_rate;
+
+    // Offsets in the ply's frame: x away from the yarn's centre, y around it.
+    float x = r.x * cos_fiber * yarn.ellipse_short;
+    float y = r.x * sin_fiber * yarn.ellipse_long;
+    float x_rate = (radius_rate * cos_fiber - r.x * sin_fiber * twist.fiber_rate) * yarn.ellipse_short;
+    float y_rate = (radius_rate * sin_fiber + r.x * cos_fiber * twist.fiber_rate) * yarn.ellipse_long;
+
+    vec3 binormal = cross(yarn_at.tangent, yarn_at.normal);
+    vec3 normal_ply = cos(ply_angle) * yarn_at.normal + sin(ply_angle) * binormal;
+    vec3 binormal_ply = cross(yarn_at.tangent, normal_ply);
+    float away = yarn.ply_offset + x;
+    vec3 from_center = away * normal_ply + y * binormal_ply;
+
+    FiberPoint f;
+    f.yarn_center = yarn_at.center;
+    f.ply_center = yarn_at.center + yarn.ply_offset * normal_ply;
+    f.position = yarn_at.center + from_center;
+    f.center_distance = length(vec2(away, y));
+    // On the inside of a bend the fiber advances less than the centre line.
+    float bend_speed = dot(from_center, yarn_at.bend) / max(yarn_at.speed, 1e-12);
+    vec3 velocity = (yarn_at.speed - bend_speed) * yarn_at.tangent
+                  + (x_rate - twist.ply_rate * y) * normal_ply
+                  + (y_rate + twist.ply_rate * away) * binormal_ply;
+    f.tangent = direction_or(velocity, yarn_at.tangent);
+    return f;
+}
+
+#endif

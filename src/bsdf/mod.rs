@@ -1,0 +1,3 @@
+//! Fiber scattering in f64.
+
+pub mod simple;

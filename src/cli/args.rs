@@ -1,0 +1,136 @@
+//! What can be typed.
+
+use crate::frame::sampling::Sampling;
+use clap::{Args as ClapArgs, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Fiber-level knitwear, in real time.
+#[derive(Debug, Parser)]
+#[command(version, about, after_help = EXIT_CODES)]
+pub struct Args {
+    /// What every command takes.
+    #[command(flatten)]
+    pub common: Common,
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 good; 1 a check failed; 2 bad input or arguments; 3 no usable device; \
+                          4 device lost or out of memory.";
+
+/// Options of every command.
+#[derive(Clone, Debug, ClapArgs)]
+pub struct Common {
+    /// Device by name, by index, or `software` for a CPU device.
+    #[arg(long, global = true, default_value = "auto", value_name = "NAME|INDEX|software")]
+    pub device: String,
+    /// Check every Vulkan call; an error ends the run. Debug builds do so where the layer is installed.
+    #[arg(long, global = true)]
+    pub validate: bool,
+    /// Say only what went wrong.
+    #[arg(short, long, global = true)]
+    pub quiet: bool,
+    /// Say more; twice for everything.
+    #[arg(short, long, global = true, action = clap::ArgAction::Count)]
+    pub verbose: u8,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Draw a scene, or a bare yarn file, into a picture.
+    Render(Render),
+    /// Generate fabric.
+    Knit(Knit),
+    /// Say what a yarn file holds.
+    Info(Info),
+    /// Say what this machine can do, what is missing, and the line that installs it.
+    Doctor,
+}
+
+/// `worsted render`.
+#[derive(Debug, ClapArgs)]
+pub struct Render {
+    /// A scene (`.toml`) or a yarn file (`.bcc`, `.obj`).
+    pub scene: PathBuf,
+    /// The picture: `.png` as displayed, `.exr` as linear radiance. May be given more than once.
+    #[arg(short, long, required = true)]
+    pub output: Vec<PathBuf>,
+    /// Width and height in pixels.
+    #[arg(long, default_value = "1280x960", value_name = "WxH")]
+    pub size: String,
+    /// Samples per pixel: 1, 4, 16, 36, 64 ...
+    #[arg(long, default_value = "4")]
+    pub samples: Sampling,
+    /// Camera as `key=value` pairs: yaw, pitch (degrees), distance (mm), target (mm), fov (degrees), or
+    /// `fit`.
+    #[arg(long, value_name = "yaw=30,pitch=20,distance=400,target=0:0:0|fit", allow_hyphen_values = true)]
+    pub camera: Option<String>,
+    /// Set any scene key by its path; `null` removes it. May be given more than once.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Seed of everything random.
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// Draw this many times and report the spread of times.
+    #[arg(long, default_value_t = 1, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub repeat: u32,
+    /// Write statistics as JSON; `-` for standard output.
+    #[arg(long, value_name = "FILE")]
+    pub stats: Option<PathBuf>,
+    /// Time every pass in a submission of its own.
+    #[arg(long)]
+    pub profile: bool,
+    /// Say what was built and what was left out, and why.
+    #[arg(long)]
+    pub explain: bool,
+}
+
+/// `worsted knit`.
+#[derive(Debug, ClapArgs)]
+pub struct Knit {
+    /// The pattern.
+    #[command(subcommand)]
+    pub pattern: Pattern,
+}
+
+/// Patterns that can be generated.
+#[derive(Debug, Subcommand)]
+pub enum Pattern {
+    /// Plain jersey, knit flat from one yarn.
+    Stockinette(Stockinette),
+}
+
+/// `worsted knit stockinette`.
+#[derive(Debug, ClapArgs)]
+pub struct Stockinette {
+    /// Rows of loops.
+    #[arg(long, default_value_t = 12)]
+    pub courses: u32,
+    /// Loops in a row.
+    #[arg(long, default_value_t = 10)]
+    pub wales: u32,
+    /// Outer radius of the yarn in mm; the default preset's when not given.
+    #[arg(long, value_name = "MM")]
+    pub yarn_radius: Option<f64>,
+    /// Distance between loops of a row in mm.
+    #[arg(long, value_name = "MM")]
+    pub wale_spacing: Option<f64>,
+    /// Distance between rows in mm.
+    #[arg(long, value_name = "MM")]
+    pub course_spacing: Option<f64>,
+    /// Control points of one loop.
+    #[arg(long, value_name = "N")]
+    pub points_per_loop: Option<u32>,
+    /// The yarn file to write.
+    #[arg(short, long)]
+    pub output: PathBuf,
+}
+
+/// `worsted info`.
+#[derive(Debug, ClapArgs)]
+pub struct Info {
+    /// A yarn file (`.bcc`, `.obj`).
+    pub yarn: PathBuf,
+}

@@ -1,0 +1,128 @@
+//! What was typed, resolved into what will run.
+
+use super::args::{Common, Render};
+use super::output::{Output, PictureFormat};
+use crate::error::Error;
+use crate::frame::Request;
+use crate::scene::Scene;
+
+/// A picture to be drawn.
+pub struct RenderJob {
+    /// The scene, loaded.
+    pub scene: Scene,
+    /// Size, samples, and what to count.
+    pub request: Request,
+    /// Where the picture goes.
+    pub outputs: Vec<Output>,
+    /// Pictures to draw for the statistics.
+    pub repeat: u32,
+    /// Where statistics go.
+    pub stats: Option<std::path::PathBuf>,
+    /// Whether to say what was left out.
+    pub explain: bool,
+    /// Device and log options.
+    pub common: Common,
+}
+
+/// Largest picture side in pixels.
+const MAX_SIDE: u32 = 16_384;
+
+impl RenderJob {
+    /// Resolves arguments and loads the scene.
+    ///
+    /// # Errors
+    /// Arguments that make no sense, a scene that cannot be had.
+    pub fn new(args: &Render, common: &Common) -> Result<Self, Error> {
+        let outputs = args.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
+        let mut assignments = Vec::new();
+        if let Some(camera) = &args.camera {
+            assignments.extend(camera_assignments(camera)?);
+        }
+        if let Some(seed) = args.seed {
+            assignments.push(format!("seed={seed}"));
+        }
+        // After the shorthands: --set has the last word.
+        assignments.extend(args.set.iter().cloned());
+        let request = Request {
+            size: parse_size(&args.size)?,
+            sampling: args.samples,
+            statistics: args.stats.is_some() || args.explain,
+            profile: args.profile,
+        };
+        let scene = Scene::load(&args.scene, &assignments)?;
+        let explain = args.explain;
+        let (repeat, stats) = (args.repeat, args.stats.clone());
+        Ok(Self { scene, request, outputs, repeat, stats, explain, common: common.clone() })
+    }
+
+    /// Whether any output shows the picture as displayed.
+    pub fn wants(&self, format: PictureFormat) -> bool {
+        self.outputs.iter().any(|output| output.format == format)
+    }
+}
+
+/// `1280x960`.
+fn parse_size(text: &str) -> Result<[u32; 2], Error> {
+    let side = |s: &str| s.parse::<u32>().ok().filter(|n| (1..=MAX_SIDE).contains(n));
+    let parsed = text.split_once('x').and_then(|(w, h)| Some([side(w)?, side(h)?]));
+    parsed.ok_or_else(|| {
+        Error::Arguments(format!("--size {text}: expected WxH with sides of 1 to {MAX_SIDE} pixels"))
+    })
+}
+
+/// `yaw=30,pitch=20,distance=400,target=0:0:0` or `fit` as assignments to scene keys.
+fn camera_assignments(text: &str) -> Result<Vec<String>, Error> {
+    let wrong = |what: String| Error::Arguments(format!("--camera {text}: {what}"));
+    let number = |value: &str| {
+        let parsed = value.parse::<f64>().ok().filter(|v| v.is_finite());
+        parsed.ok_or_else(|| wrong(format!("expected a number, found `{value}`")))
+    };
+    let mut assignments = Vec::new();
+    for part in text.split(',') {
+        if part == "fit" {
+            assignments.push("camera.fit=true".to_owned());
+            continue;
+        }
+        let (key, value) = part.split_once('=').ok_or_else(|| wrong(format!("expected key=value, found `{part}`")))?;
+        assignments.push(match key {
+            "yaw" | "pitch" => format!("camera.{key}_deg={:?}", number(value)?),
+            "fov" => format!("camera.fov_y_deg={:?}", number(value)?),
+            "distance" => format!("camera.distance_mm={:?}", number(value)?),
+            "target" => {
+                let xyz = value.split(':').map(number).collect::<Result<Vec<_>, _>>()?;
+                if xyz.len() != 3 {
+                    return Err(wrong(format!("expected target=X:Y:Z, found {} numbers", xyz.len())));
+                }
+                format!("camera.target_mm={xyz:?}")
+            }
+            _ => return Err(wrong(format!("expected yaw, pitch, distance, target, fov or fit, found `{key}`"))),
+        });
+    }
+    Ok(assignments)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes() {
+        assert_eq!(parse_size("640x480").unwrap(), [640, 480]);
+        for bad in ["640", "0x4", "640x", "axb", "99999x1", "4x-1", ""] {
+            assert!(parse_size(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn cameras() {
+        let good = camera_assignments("yaw=-30,pitch=20,distance=400,target=1:2:-3.5").unwrap();
+        let expected =
+            ["camera.yaw_deg=-30.0", "camera.pitch_deg=20.0", "camera.distance_mm=400.0", "camera.target_mm=[1.0, 2.0, -3.5]"];
+        assert_eq!(good, expected);
+        assert_eq!(camera_assignments("fit").unwrap(), ["camera.fit=true"]);
+        for bad in ["yaw", "roll=3", "yaw=x", "target=1:2", "yaw=nan", ""] {
+            let error = camera_assignments(bad).unwrap_err().to_string();
+            assert!(!error.contains('\n'), "{error}");
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! What was typed becomes a job, and the job runs: one file per command.
+
+pub mod args;
+mod doctor;
+mod info;
+pub mod job;
+mod knit;
+mod output;
+mod render;
+
+use crate::error::Error;
+use crate::vulkan::{Device, DeviceOptions, Validation};
+use args::{Args, Command, Common};
+use std::sync::Arc;
+
+/// Runs the command that was typed.
+///
+/// # Errors
+/// One line, and an exit code.
+pub fn run(args: &Args) -> Result<(), Error> {
+    match &args.command {
+        Command::Render(render) => render::run(&job::RenderJob::new(render, &args.common)?),
+        Command::Knit(knit) => knit::run(knit),
+        Command::Info(info) => info::run(info),
+        Command::Doctor => doctor::run(&args.common),
+    }
+}
+
+/// Sends log lines to standard error, as many as `-q` and `-v` ask for.
+pub fn start_logging(common: &Common) {
+    use tracing::level_filters::LevelFilter;
+    let level = match (common.quiet, common.verbose) {
+        (true, _) => LevelFilter::ERROR,
+        (false, 0) => LevelFilter::WARN,
+        (false, 1) => LevelFilter::INFO,
+        (false, _) => LevelFilter::DEBUG,
+    };
+    tracing_subscriber::fmt()
+        .with_max_level(level)
+        .with_writer(std::io::stderr)
+        .with_target(false)
+        .without_time()
+        .init();
+}
+
+/// Opens the device that was asked for. Debug builds, and release builds with `--validate`, check every
+/// call; a validation error ends the run.
+fn open_device(common: &Common) -> Result<Arc<Device>, Error> {
+    let validation = if common.validate {
+        Validation::On { required: true, sync: true }
+    } else if cfg!(debug_assertions) {
+        Validation::On { required: false, sync: true }
+    } else {
+        Validation::Off
+    };
+    let choice = common.device.parse().unwrap_or_default();
+    Ok(Device::new(&DeviceOptions { choice, validation, ..Default::default() })?)
+}

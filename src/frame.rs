@@ -1,0 +1,182 @@
+//! The frame, top to bottom: what is built for a scene, and what one picture runs.
+
+pub mod sampling;
+pub mod stats;
+pub mod upload;
+
+use crate::graph::{Graph, Pass};
+use crate::io::picture::{DisplayImage, LinearImage};
+use crate::gpu_types::Statistics;
+use crate::passes::draw_plan::DrawPlan;
+use crate::passes::fibers::FibersPass;
+use crate::passes::resolve::ResolvePass;
+use crate::passes::targets::Targets;
+use crate::passes::tonemap::TonemapPass;
+use crate::scene::Scene;
+use crate::scene::camera::Camera;
+use crate::scene::features::Features;
+use crate::vulkan::{Buffer, Device, ImageState, MemoryKind, VulkanError, vk};
+use sampling::Sampling;
+use stats::Stats;
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// What a picture is asked to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Request {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Samples per pixel: 1, 4, or jittered frames of 4.
+    pub sampling: Sampling,
+    /// Count what is drawn.
+    pub statistics: bool,
+    /// Time every pass in a submission of its own.
+    pub profile: bool,
+}
+
+/// A finished picture.
+pub struct Picture {
+    /// Linear radiance; alpha is the share of samples that hit yarn.
+    pub linear: LinearImage,
+    /// As shown on a display, over the scene's background.
+    pub display: DisplayImage,
+}
+
+/// Everything a scene needs on the device.
+pub struct Renderer {
+    device: Arc<Device>,
+    scene: Scene,
+    request: Request,
+    targets: Targets,
+    frame: Buffer,
+    statistics: Buffer,
+    fibers: FibersPass,
+    resolve: ResolvePass,
+    tonemap: TonemapPass,
+    graph: Graph,
+    stats: Stats,
+}
+
+impl Renderer {
+    /// Uploads the scene and builds the passes it needs.
+    ///
+    /// # Errors
+    /// Those of the device: too large, out of memory, lost.
+    pub fn new(device: &Arc<Device>, scene: Scene, request: Request) -> Result<Self, VulkanError> {
+        let samples = request.sampling.multisampling();
+        let targets = Targets::new(device, request.size, samples)?;
+        let uniform = vk::BufferUsageFlags::UNIFORM_BUFFER;
+        let frame_bytes = size_of::<crate::gpu_types::Frame>() as u64;
+        let frame = Buffer::new(device, "frame", frame_bytes, uniform, MemoryKind::Upload)?;
+        let counted = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
+        let statistics = Buffer::upload(device, "statistics", counted, &[Statistics::default()])?;
+
+        let mut fibers = FibersPass::new(device, frame.clone(), statistics.clone())?;
+        let mut stats = Stats::new(device, &scene, &request);
+        for fabric in &scene.fabrics {
+            let features = Features::new(&scene.file, fabric, request.statistics);
+            let started = Instant::now();
+            let buffers = upload::fabric_buffers(device, &scene, fabric, &features)?;
+            stats.add_precompute("fabric", started.elapsed());
+            let plan = DrawPlan::new(
+                fabric.strands.pieces.len() as u32,
+                fabric.yarn.fiber_count(),
+                upload::most_subdivisions(fabric, &scene.file.quality),
+                device.is_cpu(),
+                scene.file.quality.patches_per_draw,
+            );
+            fibers.add_fabric(&buffers, features, samples, plan)?;
+            stats.add_left_out(&features);
+        }
+        let resolve = ResolvePass::new(device, &targets)?;
+        let tonemap = TonemapPass::new(device, &targets, &scene.file.display)?;
+        let device = device.clone();
+        let graph = Graph::default();
+        Ok(Self { device, scene, request, targets, frame, statistics, fibers, resolve, tonemap, graph, stats })
+    }
+
+    /// The camera the scene asks for.
+    pub fn camera(&self) -> Camera {
+        camera(&self.scene, self.request.size)
+    }
+
+    /// The fiber pass, for kernels that read the same buffers.
+    pub fn fibers_pass(&self) -> &FibersPass {
+        &self.fibers
+    }
+
+    /// What is known of the pictures so far.
+    pub fn stats(&self) -> &Stats {
+        &self.stats
+    }
+
+    /// Draws one picture. `progress` is told the share done after every jittered frame.
+    ///
+    /// # Errors
+    /// Those of the device.
+    pub fn render(&mut self, progress: &dyn Fn(f64)) -> Result<Picture, VulkanError> {
+        let camera = self.camera();
+        let jitters = self.request.sampling.jitters();
+        let mut taken = Duration::ZERO;
+        let mut passes = HashMap::new();
+        for (index, &jitter) in jitters.iter().enumerate() {
+            let frame = upload::frame(&self.scene, &camera, self.request.size, jitter);
+            self.frame.write(0, &[frame])?;
+            let mut work = vec![
+                self.fibers.pass(&self.targets),
+                self.resolve.pass(&self.targets, index, jitters.len()),
+            ];
+            if index + 1 == jitters.len() {
+                work.push(self.tonemap.pass(&self.targets));
+            }
+            taken += run(&mut self.graph, &self.device, &work, self.request.profile.then_some(&mut passes))?;
+            if index == 0 && self.request.statistics {
+                self.stats.set_counts(self.statistics.read_staged()?);
+            }
+            progress((index + 1) as f64 / jitters.len() as f64);
+        }
+        self.stats.add_frame(taken, passes);
+        let picture = self.read_picture()?;
+        self.stats.inspect(&picture.linear);
+        Ok(picture)
+    }
+
+    fn read_picture(&self) -> Result<Picture, VulkanError> {
+        let [width, height] = self.request.size;
+        let linear = self.targets.picture.read(ImageState::STORAGE_COMPUTE)?;
+        let display = self.targets.display.read(ImageState::STORAGE_COMPUTE)?;
+        Ok(Picture {
+            linear: LinearImage { width, height, pixels: linear },
+            display: DisplayImage { width, height, pixels: display },
+        })
+    }
+}
+
+fn run(
+    graph: &mut Graph,
+    device: &Arc<Device>,
+    passes: &[Pass<'_>],
+    timings: Option<&mut HashMap<&'static str, Duration>>,
+) -> Result<Duration, VulkanError> {
+    match timings {
+        Some(timings) => graph.run_timed(device, passes, timings),
+        None => graph.run(device, "frame", passes),
+    }
+}
+
+/// The camera a scene asks for, at a picture size.
+pub fn camera(scene: &Scene, size: [u32; 2]) -> Camera {
+    let origin = scene.origin_mm;
+    let points = scene.fabrics.iter().flat_map(|fabric| fabric.hull_points()).map(move |p| p - origin);
+    let radius = scene.fabrics.iter().map(|f| f.yarn.outer_radius_mm()).fold(0.0, f64::max);
+    Camera::new(&scene.file.camera, size, origin, points, radius)
+}
+
+/// Milliseconds of a duration.
+fn ms(duration: Duration) -> f64 {
+    duration.as_secs_f64() * 1e3
+}
+
+/// Named milliseconds, sorted.
+type Milliseconds = BTreeMap<String, f64>;

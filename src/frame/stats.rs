@@ -1,0 +1,208 @@
+//! What `--stats` reports. The keys are stable.
+
+use super::{Milliseconds, Request, ms};
+use crate::gpu_types::Statistics;
+use crate::io::picture::LinearImage;
+use crate::scene::Scene;
+use crate::scene::features::Features;
+use crate::vulkan::Device;
+use serde::Serialize;
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Largest finite half float: the frame's format saturates to infinity above.
+const HALF_MAX: f32 = 65_504.0;
+
+/// Spread of a measured time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Spread {
+    /// Middle of all measurements.
+    pub median: f64,
+    /// Shortest.
+    pub min: f64,
+    /// Longest.
+    pub max: f64,
+    /// Number of measurements.
+    pub frames: usize,
+}
+
+/// A picture's statistics, in the units of the keys' names.
+#[derive(Clone, Debug, Serialize)]
+pub struct Stats {
+    /// Device name.
+    pub device: String,
+    /// Driver and version.
+    pub driver: String,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Samples per pixel.
+    pub samples: u32,
+    /// Control points of all fabrics, as given.
+    pub control_points: u64,
+    /// Cubic pieces of yarn.
+    pub yarn_segments: u64,
+    /// Fibers of every piece of yarn: pieces times fibers.
+    pub fiber_curves: u64,
+    /// Straight pieces of fiber drawn in one frame; only when counted.
+    pub fiber_segments: Option<u64>,
+    /// Triangles drawn in one frame.
+    pub triangles: Option<u64>,
+    /// Pieces of yarn drawn in one frame.
+    pub patches_drawn: Option<u64>,
+    /// Pieces of yarn outside the picture.
+    pub patches_culled: Option<u64>,
+    /// Wall time of whole pictures on the device.
+    pub frame_ms: Spread,
+    /// Mean time of each pass per picture; only when profiled.
+    pub passes: Milliseconds,
+    /// How `passes` was timed.
+    pub timing_method: Option<&'static str>,
+    /// Work done once before the first picture.
+    pub precompute_ms: Milliseconds,
+    /// Device memory by name.
+    pub gpu_bytes: BTreeMap<String, u64>,
+    /// What the scene does not need, and why.
+    pub left_out: BTreeMap<String, String>,
+    /// Pixels that are not a number or infinite.
+    pub nan_pixels: u64,
+    /// Pixels with a value that was clamped on its way.
+    pub clamped_pixels: u64,
+    #[serde(skip)]
+    frames: Vec<f64>,
+}
+
+impl Stats {
+    /// What is known before the first picture.
+    pub fn new(device: &Arc<Device>, scene: &Scene, request: &Request) -> Self {
+        let sum = |count: &dyn Fn(&crate::scene::Fabric) -> u64| scene.fabrics.iter().map(count).sum();
+        Self {
+            device: device.name().to_owned(),
+            driver: device.driver().to_owned(),
+            size: request.size,
+            samples: request.sampling.count(),
+            control_points: sum(&|f| f.strands.control_point_count as u64),
+            yarn_segments: sum(&|f| f.strands.pieces.len() as u64),
+            fiber_curves: sum(&|f| f.strands.pieces.len() as u64 * u64::from(f.yarn.fiber_count())),
+            fiber_segments: None,
+            triangles: None,
+            patches_drawn: None,
+            patches_culled: None,
+            frame_ms: Spread::default(),
+            passes: BTreeMap::new(),
+            timing_method: None,
+            precompute_ms: BTreeMap::new(),
+            gpu_bytes: BTreeMap::new(),
+            left_out: BTreeMap::new(),
+            nan_pixels: 0,
+            clamped_pixels: 0,
+            frames: Vec::new(),
+        }
+    }
+
+    pub(super) fn add_precompute(&mut self, name: &str, taken: Duration) {
+        *self.precompute_ms.entry(name.to_owned()).or_default() += ms(taken);
+    }
+
+    pub(super) fn add_left_out(&mut self, features: &Features) {
+        let entries = features.left_out().into_iter().map(|(what, why)| (what.to_owned(), why.to_owned()));
+        self.left_out.extend(entries);
+    }
+
+    pub(super) fn set_counts(&mut self, counted: Vec<Statistics>) {
+        let Some(counted) = counted.first() else { return };
+        let segments = counted.fiber_segments();
+        self.fiber_segments = Some(segments);
+        // The geometry stage widens each straight piece into a strip of two triangles.
+        self.triangles = Some(2 * segments);
+        self.patches_drawn = Some(counted.patches_drawn.into());
+        self.patches_culled = Some(counted.patches_culled.into());
+    }
+
+    pub(super) fn add_frame(&mut self, taken: Duration, passes: HashMap<&'static str, Duration>) {
+        self.frames.push(ms(taken));
+        let mut sorted = self.frames.clone();
+        sorted.sort_by(f64::total_cmp);
+        let count = sorted.len();
+        self.frame_ms = Spread {
+            median: 0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]),
+            min: sorted[0],
+            max: sorted[count - 1],
+            frames: count,
+        };
+        for (name, taken) in passes {
+            let mean = self.passes.entry(name.to_owned()).or_default();
+            *mean += (ms(taken) - *mean) / count as f64;
+            self.timing_method = Some("one submission per pass, wall time to its fence");
+        }
+    }
+
+    /// Counts what must not be in a picture.
+    pub fn inspect(&mut self, picture: &LinearImage) {
+        let bad = |p: &&[f32; 4]| !p.iter().all(|c| c.is_finite());
+        let clamped = |p: &&[f32; 4]| p.iter().any(|&c| c < 0.0 || c >= HALF_MAX);
+        self.nan_pixels = picture.pixels.iter().filter(bad).count() as u64;
+        self.clamped_pixels = picture.pixels.iter().filter(clamped).count() as u64;
+    }
+
+    /// Takes note of the device's memory.
+    pub fn set_gpu_bytes(&mut self, device: &Device) {
+        self.gpu_bytes = device.memory_bytes();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bad_and_clamped_pixels_are_counted() {
+        let pixels = vec![
+            [0.0; 4],
+            [f32::NAN, 0.0, 0.0, 1.0],
+            [f32::INFINITY, 0.0, 0.0, 1.0],
+            [-0.1, 0.0, 0.0, 1.0],
+            [7e4, 0.0, 0.0, 1.0],
+            [1.0; 4],
+        ];
+        let mut stats = Stats::for_tests();
+        stats.inspect(&LinearImage { width: 6, height: 1, pixels });
+        assert_eq!((stats.nan_pixels, stats.clamped_pixels), (2, 3));
+    }
+
+    #[test]
+    fn frame_times_give_median_and_spread() {
+        let mut stats = Stats::for_tests();
+        for milliseconds in [30, 10, 20, 40] {
+            stats.add_frame(Duration::from_millis(milliseconds), HashMap::new());
+        }
+        assert_eq!(stats.frame_ms, Spread { median: 25.0, min: 10.0, max: 40.0, frames: 4 });
+    }
+
+    impl Stats {
+        fn for_tests() -> Self {
+            Self {
+                device: String::new(),
+                driver: String::new(),
+                size: [6, 1],
+                samples: 1,
+                control_points: 0,
+                yarn_segments: 0,
+                fiber_curves: 0,
+                fiber_segments: None,
+                triangles: None,
+                patches_drawn: None,
+                patches_culled: None,
+                frame_ms: Spread::default(),
+                passes: BTreeMap::new(),
+                timing_method: None,
+                precompute_ms: BTreeMap::new(),
+                gpu_bytes: BTreeMap::new(),
+                left_out: BTreeMap::new(),
+                nan_pixels: 0,
+                clamped_pixels: 0,
+                frames: Vec::new(),
+            }
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! The scene in the device's words: f64 truth to GPU structs.
+
+use crate::gpu_types::{ControlPoint, Fiber, Frame, Segment, Yarn};
+use crate::math::frame::octahedral_from_unit;
+use crate::passes::fibers::FabricBuffers;
+use crate::precompute::occlusion_fit::fit_distance_occlusion;
+use crate::scene::camera::Camera;
+use crate::scene::features::Features;
+use crate::scene::file::QualityTable;
+use crate::scene::{Fabric, Scene};
+use crate::vulkan::{Buffer, Device, VulkanError, vk};
+use crate::yarn::fiber::Turns;
+use crate::yarn::level::subdivisions;
+use crate::yarn::strand::Piece;
+use crate::yarn::table::fiber_table;
+use glam::{DMat4, DVec2, DVec3, DVec4};
+use std::sync::Arc;
+
+/// Control points relative to the scene's origin: subtracted in f64, so that far-off models keep
+/// their digits.
+pub fn control_points(fabric: &Fabric, origin_mm: DVec3) -> Vec<ControlPoint> {
+    let strands = &fabric.strands;
+    let point = |(position, normal): (&DVec3, &DVec3)| ControlPoint {
+        position: (*position - origin_mm).as_vec3().to_array(),
+        normal_octahedral: octahedral_from_unit(*normal),
+    };
+    strands.points.iter().zip(&strands.normals).map(point).collect()
+}
+
+/// One piece with its turns reduced in f64.
+fn segment(piece: &Piece) -> Segment {
+    let reduced = |turns: Turns| turns.start.rem_euclid(1.0) as f32;
+    let turns = &piece.turns;
+    Segment {
+        first_point: piece.first_point as u32,
+        curve: piece.curve as u32,
+        migration_period: turns.migration.start.floor() as i32,
+        padding: 0,
+        ply_turns: reduced(turns.ply),
+        fiber_turns: reduced(turns.fiber),
+        migration_turns: reduced(turns.migration),
+        padding2: 0.0,
+        ply_turns_delta: turns.ply.delta as f32,
+        fiber_turns_delta: turns.fiber.delta as f32,
+        migration_turns_delta: turns.migration.delta as f32,
+        padding3: 0.0,
+    }
+}
+
+/// All pieces of a fabric.
+pub fn segments(fabric: &Fabric) -> Vec<Segment> {
+    fabric.strands.pieces.iter().map(segment).collect()
+}
+
+/// The fibers of a fabric's cross-section.
+pub fn fibers(fabric: &Fabric, seed: u64) -> Vec<Fiber> {
+    let fiber = |f: crate::yarn::table::Fiber| Fiber {
+        radius: f.radius as f32,
+        angle: f.angle as f32,
+        migration_phase: f.migration_phase as f32,
+        ply: f.ply,
+    };
+    fiber_table(&fabric.yarn, seed).into_iter().map(fiber).collect()
+}
+
+/// What all yarns of a fabric share.
+pub fn yarn(fabric: &Fabric, quality: &QualityTable, features: &Features) -> Yarn {
+    let params = &fabric.yarn;
+    let occlusion = if features.distance_occlusion { fit_distance_occlusion(params) } else { DVec4::X };
+    let [k_r, k_g, k_b] = fabric.fiber.specular;
+    let beta = fabric.fiber.specular_width_deg.to_radians();
+    Yarn {
+        ply_count: params.ply_count,
+        fiber_count: params.fiber_count(),
+        ply_offset: params.ply_offset_mm() as f32,
+        ellipse_short: params.ellipse_short_mm as f32,
+        ellipse_long: params.ellipse_long_mm as f32,
+        migration_min: params.migration_min as f32,
+        migration_max: params.migration_max as f32,
+        fiber_radius: params.fiber_radius_mm() as f32,
+        outer_radius: params.outer_radius_mm() as f32,
+        subdivisions_per_turn: quality.subdivisions_per_turn as f32,
+        max_subdivisions: quality.max_subdivisions,
+        segment_count: fabric.strands.pieces.len() as u32,
+        occlusion: occlusion.as_vec4().to_array(),
+        diffuse: rgb(fabric.fiber.diffuse),
+        specular: DVec4::new(k_r, k_g, k_b, beta).as_vec4().to_array(),
+    }
+}
+
+/// Most pieces any fiber of the fabric is cut into. One more than the f64 figure where that is not
+/// yet the limit, since f32 may round a product up past a whole number.
+pub fn most_subdivisions(fabric: &Fabric, quality: &QualityTable) -> u32 {
+    let (per_turn, largest) = (quality.subdivisions_per_turn, quality.max_subdivisions);
+    let pieces = |piece: &Piece| {
+        let b = fabric.strands.bezier(piece);
+        subdivisions(&b, piece.turns.ply.delta, piece.turns.fiber.delta, per_turn, largest)
+    };
+    (fabric.strands.pieces.iter().map(pieces).max().unwrap_or(1) + 1).min(largest)
+}
+
+/// The camera and light of one jittered frame.
+pub fn frame(scene: &Scene, camera: &Camera, size: [u32; 2], jitter: DVec2) -> Frame {
+    let light = scene.file.light().into_iter().next().unwrap_or_default();
+    let to_light = -DVec3::from_array(light.direction).normalize();
+    Frame {
+        clip_from_world: columns(camera.clip_from_world(size, jitter)),
+        eye_world: camera.eye_world.extend(1.0).as_vec4().to_array(),
+        frustum_world: camera.frustum_world(size).map(|plane| plane.as_vec4().to_array()),
+        light_direction_world: to_light.extend(0.0).as_vec4().to_array(),
+        light_irradiance: rgb(light.irradiance),
+        ambient_radiance: rgb(scene.file.ambient.radiance),
+    }
+}
+
+fn rgb(rgb: [f64; 3]) -> [f32; 4] {
+    DVec3::from_array(rgb).extend(1.0).as_vec4().to_array()
+}
+
+fn columns(m: DMat4) -> [[f32; 4]; 4] {
+    m.as_mat4().to_cols_array_2d()
+}
+
+/// Uploads a fabric, once.
+///
+/// # Errors
+/// Those of the device.
+pub fn fabric_buffers(
+    device: &Arc<Device>,
+    scene: &Scene,
+    fabric: &Fabric,
+    features: &Features,
+) -> Result<FabricBuffers, VulkanError> {
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+    Ok(FabricBuffers {
+        control_points: Buffer::upload(
+            device,
+            "control points",
+            usage,
+            &control_points(fabric, scene.origin_mm),
+        )?,
+        segments: Buffer::upload(device, "yarn segments", usage, &segments(fabric))?,
+        fibers: Buffer::upload(device, "fibers", usage, &fibers(fabric, scene.file.seed))?,
+        yarn: Buffer::upload(device, "yarn parameters", usage, &[yarn(fabric, &scene.file.quality, features)])?,
+    })
+}

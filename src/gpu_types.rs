@@ -1,0 +1,135 @@
+//! Every struct mirrored in `glsl/shared/layouts.glsl`; `tests/layouts.rs` holds the two equal.
+
+use bytemuck::{Pod, Zeroable};
+
+/// Isolines one patch may carry; `FIBERS_PER_PATCH` in `glsl/shared/constants.glsl`.
+pub const FIBERS_PER_PATCH: u32 = 64;
+
+/// One control point of a yarn.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct ControlPoint {
+    /// In mm, relative to the scene's origin.
+    pub position: [f32; 3],
+    /// The knot's normal as two 16-bit snorms: [`crate::math::frame::octahedral_from_unit`].
+    pub normal_octahedral: u32,
+}
+
+/// One cubic piece of a yarn. Turns are reduced to [0, 1] in f64; deltas are not.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Segment {
+    /// First of four consecutive control points.
+    pub first_point: u32,
+    /// The curve it belongs to.
+    pub curve: u32,
+    /// Whole periods of the fibers' radius before this piece.
+    pub migration_period: i32,
+    /// Not used.
+    pub padding: u32,
+    /// Rotation of the plies at the start, in turns.
+    pub ply_turns: f32,
+    /// Twist of the fibers inside the ply's frame, in turns.
+    pub fiber_turns: f32,
+    /// Phase of the fibers' radius, in turns.
+    pub migration_turns: f32,
+    /// Not used.
+    pub padding2: f32,
+    /// Turns of the plies over the piece.
+    pub ply_turns_delta: f32,
+    /// Turns of the fibers over the piece.
+    pub fiber_turns_delta: f32,
+    /// Turns of the radius's phase over the piece.
+    pub migration_turns_delta: f32,
+    /// Not used.
+    pub padding3: f32,
+}
+
+/// One fiber of the cross-section.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Fiber {
+    /// R_i, 0..1 of the ply's ellipse.
+    pub radius: f32,
+    /// theta_i in radians.
+    pub angle: f32,
+    /// m_i in radians.
+    pub migration_phase: f32,
+    /// Its ply.
+    pub ply: u32,
+}
+
+/// What all yarns of one fabric share; lengths in mm.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Yarn {
+    /// Plies.
+    pub ply_count: u32,
+    /// Fibers of all plies together.
+    pub fiber_count: u32,
+    /// Ply centre's distance from the yarn's centre.
+    pub ply_offset: f32,
+    /// e_N.
+    pub ellipse_short: f32,
+    /// e_B.
+    pub ellipse_long: f32,
+    /// R_min.
+    pub migration_min: f32,
+    /// R_max.
+    pub migration_max: f32,
+    /// Half a fiber's diameter.
+    pub fiber_radius: f32,
+    /// Of the circle around all plies.
+    pub outer_radius: f32,
+    /// Straight pieces per turn of a fiber.
+    pub subdivisions_per_turn: f32,
+    /// Most pieces over one piece of yarn.
+    pub max_subdivisions: u32,
+    /// Pieces of yarn.
+    pub segment_count: u32,
+    /// Visibility as a cubic of (distance from the centre / outer radius).
+    pub occlusion: [f32; 4],
+    /// k_d, rgb.
+    pub diffuse: [f32; 4],
+    /// k_s, rgb, and beta in radians.
+    pub specular: [f32; 4],
+}
+
+/// What one picture of the scene needs; world space in mm, relative to the scene's origin.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Frame {
+    /// Column-major.
+    pub clip_from_world: [[f32; 4]; 4],
+    /// xyz.
+    pub eye_world: [f32; 4],
+    /// Inward planes: left, right, bottom, top, near.
+    pub frustum_world: [[f32; 4]; 5],
+    /// xyz: unit, toward the light.
+    pub light_direction_world: [f32; 4],
+    /// rgb, on a surface facing the light.
+    pub light_irradiance: [f32; 4],
+    /// rgb.
+    pub ambient_radiance: [f32; 4],
+}
+
+/// Counted by the control stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Statistics {
+    /// Pieces of yarn drawn.
+    pub patches_drawn: u32,
+    /// Pieces of yarn outside the picture.
+    pub patches_culled: u32,
+    /// Straight pieces of fiber, low word.
+    pub fiber_segments_low: u32,
+    /// High word.
+    pub fiber_segments_high: u32,
+}
+
+impl Statistics {
+    /// Straight pieces of fiber drawn.
+    pub fn fiber_segments(&self) -> u64 {
+        u64::from(self.fiber_segments_high) << 32 | u64::from(self.fiber_segments_low)
+    }
+}

@@ -1,0 +1,9 @@
+//! Bytes to and from plain data: yarn files, pictures.
+
+pub mod bcc;
+pub mod curves;
+pub mod error;
+pub mod obj;
+pub mod picture;
+pub mod repair;
+pub mod yarn_file;

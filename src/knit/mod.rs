@@ -1,0 +1,14 @@
+//! Generated fabric: yarn centre lines that knit a cloth, and the checks that they do.
+
+pub mod clearance;
+mod dense;
+pub mod error;
+mod fine;
+pub mod interlock;
+pub mod layout;
+mod relax;
+mod selvedge;
+pub mod stockinette;
+#[cfg(test)]
+mod stockinette_tests;
+mod unit_cell;

@@ -1,0 +1,240 @@
+//! Stockinette (plain jersey) knit flat from one serpentine yarn.
+//!
+//! One loop of the endless cloth is relaxed until its strands rest on each other (`unit_cell.rs`), half
+//! circles join the courses at the edges (`selvedge.rs`), and a swatch of any size repeats the two. The cloth lies in the XY plane,
+//! courses along X and wales along Y, centred at the origin, its technical face (the V stitches)
+//! toward +Z. The last course is off the needle, not bound off, as the first is not cast on.
+//!
+//! Gauge. A loop that just touches itself and its neighbours needs about 4.1 yarn diameters from wale to
+//! wale and 2.2 from course to course, whatever the other spacing is: Peirce's jammed cloth of round
+//! yarn has four strands side by side, 4 diameters (F. T. Peirce, "Geometrical principles applicable to
+//! the design of functional fabrics", Textile Research Journal 17, 1947). The default of 4.2 by 2.9
+//! diameters is close to that limit, so that little shows through, and its loop of about 15 diameters
+//! gives Munden's products loop length / course spacing = 5.2 and loop length / wale spacing = 3.6, where
+//! relaxed wool jersey measures 5.0 to 5.3 and 3.8 to 4.1 (D. L. Munden, "The geometry and dimensional
+//! properties of plain-knit fabrics", Journal of the Textile Institute 50, 1959).
+
+use glam::DVec3;
+
+use crate::io::curves::{Basis, Curve, CurveSet, UpAxis};
+
+use super::error::KnitError;
+use super::interlock::check_interlock;
+use super::layout::Layout;
+use super::selvedge::{Turn, turn};
+use super::unit_cell::{ARC_SKIP, UnitCell, unit_cell};
+
+/// Centre lines keep at least this part of two yarn radii from each other.
+pub const KEPT_DISTANCE: f64 = 0.995;
+
+/// Allowed wale spacing, in yarn diameters.
+const WALE_DIAMETERS: [f64; 2] = [4.15, 6.5];
+/// Allowed course spacing, in yarn diameters.
+const COURSE_DIAMETERS: [f64; 2] = [2.2, 4.5];
+/// Wale and course spacing where none is given, in yarn diameters.
+const DEFAULT_DIAMETERS: [f64; 2] = [4.2, 2.9];
+/// Outer radii of real yarns lie well inside, in millimetres.
+const RADIUS_MM: [f64; 2] = [0.001, 1000.0];
+/// Fewer control points cut the bends off, more only cost.
+const POINTS_PER_LOOP: [u32; 2] = [16, 64];
+/// Control points of the whole swatch: 400 MB of them.
+const MOST_POINTS: u64 = 1 << 24;
+/// Control points of a loose end.
+const TAIL_POINTS: u32 = 2;
+/// A spacing short of its limit by no more than this part of it is taken as the limit itself.
+const ROUNDING: f64 = 1e-9;
+
+/// What to knit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StockinetteParams {
+    /// Rows of loops, at least 1.
+    pub courses: u32,
+    /// Columns of loops, at least 1.
+    pub wales: u32,
+    /// The yarn's OUTER radius in millimetres, 0.001 to 1000: strands keep twice that apart.
+    pub yarn_radius_mm: f64,
+    /// Distance between loops of a course, 4.15 to 6.5 yarn diameters; 4.2 where not given.
+    pub wale_spacing_mm: Option<f64>,
+    /// Distance between courses, 2.2 to 4.5 yarn diameters; 2.9 where not given.
+    pub course_spacing_mm: Option<f64>,
+    /// Control points of one loop: a multiple of 4 from 16 to 64.
+    pub points_per_loop: u32,
+}
+
+impl Default for StockinetteParams {
+    /// 12 courses of 10 loops in yarn of 0.75 mm outer radius, 20 points a loop (1.5 radii apart).
+    fn default() -> Self {
+        Self {
+            courses: 12,
+            wales: 10,
+            yarn_radius_mm: 0.75,
+            wale_spacing_mm: None,
+            course_spacing_mm: None,
+            points_per_loop: 20,
+        }
+    }
+}
+
+/// Refuses a value outside `[low, high]`, NaN included.
+fn check_range(name: &'static str, value: f64, [low, high]: [f64; 2], unit: &str) -> Result<(), KnitError> {
+    if value >= low * (1.0 - ROUNDING) && value <= high * (1.0 + ROUNDING) {
+        return Ok(());
+    }
+    let expected = format!("{low} to {high} {unit}");
+    Err(KnitError::Parameter { name, expected, found: format!("{value}") })
+}
+
+impl StockinetteParams {
+    /// Checks every parameter against its range.
+    ///
+    /// # Errors
+    /// The first parameter outside its range, with the range in millimetres at this yarn radius.
+    pub fn validate(&self) -> Result<(), KnitError> {
+        let [least, most] = POINTS_PER_LOOP;
+        check_range("yarn_radius_mm", self.yarn_radius_mm, RADIUS_MM, "mm")?;
+        for (name, count) in [("courses", self.courses), ("wales", self.wales)] {
+            if count == 0 {
+                let expected = "at least 1".to_owned();
+                return Err(KnitError::Parameter { name, expected, found: "0".to_owned() });
+            }
+        }
+        if !(least..=most).contains(&self.points_per_loop) || !self.points_per_loop.is_multiple_of(4) {
+            return Err(KnitError::Parameter {
+                name: "points_per_loop",
+                expected: format!("a multiple of 4 from {least} to {most}"),
+                found: self.points_per_loop.to_string(),
+            });
+        }
+        self.check_spacing("wale_spacing_mm", self.wale_spacing_mm, WALE_DIAMETERS)?;
+        self.check_spacing("course_spacing_mm", self.course_spacing_mm, COURSE_DIAMETERS)?;
+        let points = self.layout().point_count();
+        if points > MOST_POINTS {
+            return Err(KnitError::Parameter {
+                name: "courses and wales",
+                expected: format!("a swatch of at most {MOST_POINTS} control points"),
+                found: format!("{} courses of {} loops, {points} control points", self.courses, self.wales),
+            });
+        }
+        Ok(())
+    }
+
+    /// Refuses a spacing outside its range of yarn diameters.
+    fn check_spacing(
+        &self,
+        name: &'static str,
+        mm: Option<f64>,
+        diameters: [f64; 2],
+    ) -> Result<(), KnitError> {
+        let diameter_mm = 2.0 * self.yarn_radius_mm;
+        let Some(found_mm) = mm else { return Ok(()) };
+        let smallest_mm = diameters[0] * diameter_mm;
+        if found_mm < smallest_mm * (1.0 - ROUNDING) {
+            let yarn_radius_mm = self.yarn_radius_mm;
+            return Err(KnitError::TooTight { name, smallest_mm, found_mm, yarn_radius_mm });
+        }
+        let range_mm = diameters.map(|d| d * diameter_mm);
+        check_range(name, found_mm, range_mm, &format!("mm at yarn_radius_mm = {}", self.yarn_radius_mm))
+    }
+
+    /// Wale and course spacing in yarn diameters.
+    fn gauge_diameters(&self) -> [f64; 2] {
+        let diameter_mm = 2.0 * self.yarn_radius_mm;
+        let [wale, course] = DEFAULT_DIAMETERS;
+        let of = |mm: Option<f64>, default| mm.map_or(default, |mm| mm / diameter_mm);
+        [of(self.wale_spacing_mm, wale), of(self.course_spacing_mm, course)]
+    }
+
+    /// Wale and course spacing in millimetres, defaults filled in.
+    pub fn spacing_mm(&self) -> [f64; 2] {
+        self.gauge_diameters().map(|d| d * 2.0 * self.yarn_radius_mm)
+    }
+
+    /// Arc length along the yarn, in millimetres, within which two places are neighbours and not
+    /// distinct strands: what [`super::clearance::min_clearance`] should skip.
+    pub fn arc_skip_mm(&self) -> f64 {
+        ARC_SKIP * 2.0 * self.yarn_radius_mm
+    }
+
+    /// Which control points belong to which loop.
+    pub fn layout(&self) -> Layout {
+        let [wale, course] = self.gauge_diameters();
+        // Peirce's loop length, 2 C + W + 5.94 diameters, says how many of a loop's points a half circle
+        // from course to course deserves.
+        let share = 0.5 * std::f64::consts::PI * course / (2.0 * course + wale + 5.94);
+        let turn_points = (share * f64::from(self.points_per_loop)).round().max(4.0) as u32 - 1;
+        Layout {
+            courses: self.courses,
+            wales: self.wales,
+            points_per_loop: self.points_per_loop,
+            turn_points,
+            tail_points: TAIL_POINTS,
+        }
+    }
+}
+
+/// Knits the swatch: one open Catmull-Rom curve in millimetres, Y up.
+///
+/// # Errors
+/// What [`StockinetteParams::validate`] refuses, and [`KnitError::Unsound`] should a gauge inside the
+/// allowed range fail to relax to a cloth whose strands keep clear of each other.
+pub fn stockinette(params: &StockinetteParams) -> Result<CurveSet, KnitError> {
+    params.validate()?;
+    let [wale_spacing, course_spacing] = params.gauge_diameters();
+    let layout = params.layout();
+    let cell = unit_cell(wale_spacing, course_spacing, params.points_per_loop as usize / 4);
+    let turn = turn(&cell, layout.turn_points as usize);
+    if !(cell.is_sound() && turn.is_sound()) {
+        let clearance = cell.clearance.min(turn.clearance);
+        let reason = format!("strands come within {clearance:.4} yarn diameters of each other");
+        return Err(unsound(params, reason));
+    }
+    // A corner of the swatch holds every kind of stitch and turn.
+    let corner = Layout { courses: layout.courses.min(4), wales: layout.wales.min(3), ..layout };
+    let sample = one_yarn(swatch(&cell, &turn, &corner));
+    check_interlock(&sample, &corner).map_err(|fault| unsound(params, fault.to_string()))?;
+    let mut points = swatch(&cell, &turn, &layout);
+    points.iter_mut().for_each(|p| *p *= 2.0 * params.yarn_radius_mm);
+    Ok(one_yarn(points))
+}
+
+fn unsound(params: &StockinetteParams, reason: String) -> KnitError {
+    let [wale_spacing_mm, course_spacing_mm] = params.spacing_mm();
+    KnitError::Unsound { wale_spacing_mm, course_spacing_mm, reason }
+}
+
+fn one_yarn(points: Vec<DVec3>) -> CurveSet {
+    let curves = vec![Curve { points, closed: false }];
+    CurveSet { basis: Basis::CatmullRom, up_axis: Some(UpAxis::Y), curves }
+}
+
+/// The control points of a whole swatch in yarn diameters, centred, in the layout's order.
+fn swatch(cell: &UnitCell, turn: &Turn, layout: &Layout) -> Vec<DVec3> {
+    let last_wale = f64::from(layout.wales - 1) * cell.wale_spacing;
+    let left = -i64::from(layout.points_per_loop / 2);
+    let right = left + layout.course_points() as i64 - 1;
+    let mut points = Vec::with_capacity(layout.point_count() as usize);
+    for course in 0..i64::from(layout.courses) {
+        let rightward = course % 2 == 0;
+        if rightward {
+            points.extend((left..=right).map(|i| cell.point(course, i)));
+        } else {
+            points.extend((left..=right).rev().map(|i| cell.point(course, i)));
+        }
+        if course + 1 < i64::from(layout.courses) {
+            let lift = course as f64 * cell.course_spacing;
+            points.extend(turn.points.iter().map(|p| {
+                // The cloth is its own mirror image, and so is the turn at the left edge.
+                DVec3::new(if rightward { last_wale + p.x } else { -p.x }, p.y + lift, p.z)
+            }));
+        }
+    }
+    let step = cell.loop_length() / f64::from(layout.points_per_loop);
+    let outward = if layout.courses % 2 == 1 { step } else { -step };
+    let tail =
+        |from: DVec3, step: f64| (1..=layout.tail_points).map(move |k| from + DVec3::X * step * f64::from(k));
+    let before: Vec<DVec3> = points.first().map_or(Vec::new(), |&p| tail(p, -step).collect());
+    let after: Vec<DVec3> = points.last().map_or(Vec::new(), |&p| tail(p, outward).collect());
+    let height = f64::from(layout.courses - 1) * cell.course_spacing;
+    let centre = 0.5 * DVec3::new(last_wale, height, 0.0);
+    before.into_iter().rev().chain(points).chain(after).map(|p| p - centre).collect()
+}

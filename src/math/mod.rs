@@ -1,0 +1,10 @@
+//! Plain mathematics that every other module may use; imports no project module.
+
+pub mod angle;
+pub mod color;
+pub mod curve;
+pub mod frame;
+pub mod quadrature;
+pub mod rng;
+pub mod strip;
+pub mod tone;

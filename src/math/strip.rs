@@ -1,0 +1,38 @@
+//! The camera-facing strip that stands for a round fiber; twin of `glsl/lib/strip.glsl`.
+
+use super::frame::{any_perpendicular, direction_or};
+use glam::DVec3;
+
+/// Unit vector across the strip: perpendicular to the fiber and to the unit `to_eye`. Seen end on,
+/// the fiber has no side and any perpendicular of the line of sight is given.
+pub fn strip_side(tangent: DVec3, to_eye: DVec3) -> DVec3 {
+    direction_or(tangent.cross(to_eye), any_perpendicular(to_eye))
+}
+
+/// Outward normal of the round fiber at `across` in [-1, 1] of its strip.
+pub fn strip_normal(tangent: DVec3, side: DVec3, across: f64) -> DVec3 {
+    let facing = side.cross(tangent);
+    across * side + (1.0 - across * across).max(0.0).sqrt() * facing
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn normal_faces_the_eye_in_the_middle_and_the_side_at_the_edges() {
+        let tangent = DVec3::new(0.6, 0.8, 0.0);
+        let to_eye = DVec3::Z;
+        let side = strip_side(tangent, to_eye);
+        assert!(side.dot(tangent).abs() < 1e-15 && side.dot(to_eye).abs() < 1e-15);
+        assert!((strip_normal(tangent, side, 0.0) - to_eye).length() < 1e-15);
+        assert!((strip_normal(tangent, side, 1.0) - side).length() < 1e-15);
+        assert!((strip_normal(tangent, side, -0.4).length() - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn seen_end_on_it_is_still_finite() {
+        let side = strip_side(DVec3::Z, DVec3::Z);
+        assert!((side.length() - 1.0).abs() < 1e-15);
+    }
+}

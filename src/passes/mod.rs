@@ -1,0 +1,14 @@
+//! One file per pass.
+
+pub mod draw_plan;
+pub mod fibers;
+pub mod resolve;
+pub mod targets;
+pub mod tonemap;
+
+use crate::vulkan::VulkanError;
+
+/// The SPIR-V of a shader that the build embeds.
+fn spirv(path: &str) -> Result<&'static [u32], VulkanError> {
+    crate::shaders::get(path).ok_or_else(|| VulkanError::Misuse { what: format!("no embedded shader `{path}`") })
+}

@@ -1,0 +1,133 @@
+//! Scene to features: the only place that leaves things out.
+
+use super::file::{DebugView, OcclusionMode, SceneFile};
+use super::Fabric;
+use crate::math::curve::Basis;
+use std::collections::BTreeMap;
+
+/// What drawing one fabric needs. Pipelines are specialised by it, so that what is left out costs
+/// neither memory nor shader code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Features {
+    /// How control points are read.
+    pub basis: Basis,
+    /// Pieces of yarn outside the picture are dropped.
+    pub culling: bool,
+    /// Ambient light is dimmed inside the yarn.
+    pub distance_occlusion: bool,
+    /// The control stage counts what it draws.
+    pub statistics: bool,
+    /// The specular lobe exists.
+    pub specular: bool,
+    /// Ambient light exists.
+    pub ambient: bool,
+    /// A light exists.
+    pub light: bool,
+    /// What fibers are coloured by.
+    pub debug_view: DebugView,
+}
+
+/// Specialization constants of `glsl/shared/features.glsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+#[expect(missing_docs, reason = "each is the constant of the same name")]
+pub enum SpecializationId {
+    Basis = 0,
+    Culling = 1,
+    DistanceOcclusion = 2,
+    Statistics = 3,
+    Specular = 4,
+    Ambient = 5,
+    Light = 6,
+    DebugView = 7,
+}
+
+impl Features {
+    /// What `fabric` needs in this scene; `statistics` when someone asked for them.
+    pub fn new(file: &SceneFile, fabric: &Fabric, statistics: bool) -> Self {
+        let shaded = file.debug.view == DebugView::Shaded;
+        let some = |rgb: [f64; 3]| rgb.iter().any(|&c| c > 0.0);
+        let ambient = shaded && some(file.ambient.radiance);
+        let light = shaded && file.light().iter().any(|light| some(light.irradiance));
+        Self {
+            basis: fabric.strands.basis,
+            culling: file.quality.culling,
+            distance_occlusion: file.occlusion.mode == OcclusionMode::Distance
+                && (ambient || file.debug.view == DebugView::Occlusion),
+            statistics,
+            specular: light && some(fabric.fiber.specular),
+            ambient,
+            light,
+            debug_view: file.debug.view,
+        }
+    }
+
+    /// Identifier and value of every specialization constant, booleans as 0 and 1.
+    pub fn specialization(&self) -> [(SpecializationId, u32); 8] {
+        use SpecializationId as Id;
+        [
+            (Id::Basis, self.basis as u32),
+            (Id::Culling, self.culling.into()),
+            (Id::DistanceOcclusion, self.distance_occlusion.into()),
+            (Id::Statistics, self.statistics.into()),
+            (Id::Specular, self.specular.into()),
+            (Id::Ambient, self.ambient.into()),
+            (Id::Light, self.light.into()),
+            (Id::DebugView, self.debug_view as u32),
+        ]
+    }
+
+    /// What is left out of this fabric's pipeline, each with its reason.
+    pub fn left_out(&self) -> BTreeMap<&'static str, &'static str> {
+        let mut out = BTreeMap::new();
+        let mut leave = |absent: bool, what, why| {
+            if absent {
+                out.insert(what, why);
+            }
+        };
+        let shaded = self.debug_view == DebugView::Shaded;
+        leave(!shaded, "shading", "a debug view colours the fibers");
+        leave(shaded && !self.light, "light", "no light with irradiance above 0");
+        leave(shaded && self.light && !self.specular, "specular", "fiber.specular is 0");
+        leave(shaded && !self.ambient, "ambient", "ambient.radiance is 0");
+        leave(
+            shaded && !self.distance_occlusion,
+            "occlusion",
+            if self.ambient { "occlusion.mode is none" } else { "no ambient light to dim" },
+        );
+        leave(!self.culling, "culling", "quality.culling is false");
+        leave(!self.statistics, "statistics", "no one asked for them");
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn features(edit: impl FnOnce(&mut SceneFile, &mut Fabric)) -> Features {
+        let mut file = SceneFile::default();
+        let mut fabric = Fabric::for_tests();
+        edit(&mut file, &mut fabric);
+        Features::new(&file, &fabric, false)
+    }
+
+    #[test]
+    fn a_default_scene_leaves_out_only_statistics() {
+        let out = features(|_, _| {}).left_out();
+        assert_eq!(out.keys().copied().collect::<Vec<_>>(), ["statistics"]);
+    }
+
+    #[test]
+    fn what_a_scene_lacks_is_left_out_with_its_reason() {
+        let no_ambient = features(|file, _| file.ambient.radiance = [0.0; 3]);
+        assert!(!no_ambient.ambient && !no_ambient.distance_occlusion);
+        assert_eq!(no_ambient.left_out()["occlusion"], "no ambient light to dim");
+        let no_light = features(|file, _| file.light = Some(Vec::new()));
+        assert!(!no_light.light && !no_light.specular && no_light.ambient);
+        let matte = features(|_, fabric| fabric.fiber.specular = [0.0; 3]);
+        assert!(!matte.specular && matte.light);
+        let view = features(|file, _| file.debug.view = DebugView::Normal);
+        assert!(!view.light && !view.ambient && view.left_out().contains_key("shading"));
+    }
+}

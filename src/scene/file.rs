@@ -1,0 +1,252 @@
+//! The scene file's keys and their defaults. Every key has one, so a bare yarn file is a scene.
+
+use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor, value};
+use serde::{Deserialize, Serialize};
+
+/// A scene file as typed; see the README for the keys.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SceneFile {
+    /// Seed of everything random.
+    pub seed: u64,
+    /// One table or several.
+    #[serde(deserialize_with = "one_or_many")]
+    pub fabric: Vec<FabricTable>,
+    /// Yarn parameters of every fabric that does not override them: `preset` and any of
+    /// [`crate::yarn::params::YarnParams`].
+    pub yarn: toml::Table,
+    /// The look of fibers, likewise.
+    pub fiber: FiberTable,
+    /// Lights; one directional light when the key is absent.
+    pub light: Option<Vec<LightTable>>,
+    /// Light from everywhere.
+    pub ambient: AmbientTable,
+    /// Where the picture is taken from.
+    pub camera: CameraTable,
+    /// How fibers are shaded.
+    pub shading: ShadingTable,
+    /// Ambient occlusion inside the yarn.
+    pub occlusion: OcclusionTable,
+    /// What is traded for time.
+    pub quality: QualityTable,
+    /// From radiance to the displayed picture.
+    pub display: DisplayTable,
+    /// Views that show something else than light.
+    pub debug: DebugTable,
+}
+
+/// One piece of cloth.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FabricTable {
+    /// Yarn file, relative to the scene file.
+    pub model: String,
+    /// Millimetres per unit of the file; estimated from the yarns' contact when absent.
+    pub mm_per_unit: Option<f64>,
+    /// Yarn parameters that differ from the scene's.
+    pub yarn: toml::Table,
+    /// Fiber look that differs from the scene's.
+    pub fiber: Option<FiberTable>,
+}
+
+/// The look of a fiber under the simple shading model.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FiberTable {
+    /// k_d: diffuse albedo, linear RGB in [0, 1].
+    pub diffuse: [f64; 3],
+    /// k_s: specular strength, linear RGB, at least 0.
+    pub specular: [f64; 3],
+    /// beta: longitudinal width of the specular lobe in degrees, 0.5 to 90.
+    pub specular_width_deg: f64,
+}
+
+impl Default for FiberTable {
+    fn default() -> Self {
+        Self { diffuse: [0.56, 0.50, 0.40], specular: [0.05, 0.05, 0.045], specular_width_deg: 12.0 }
+    }
+}
+
+/// One light.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LightTable {
+    /// What kind of light.
+    pub kind: LightKind,
+    /// From the light to the scene; any length but 0.
+    pub direction: [f64; 3],
+    /// On a surface that faces the light, linear RGB.
+    pub irradiance: [f64; 3],
+}
+
+impl Default for LightTable {
+    fn default() -> Self {
+        Self { kind: LightKind::Directional, direction: [-0.55, -0.75, -0.55], irradiance: [3.0, 2.94, 2.82] }
+    }
+}
+
+/// Kinds of light.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LightKind {
+    /// Parallel light from infinitely far.
+    #[default]
+    Directional,
+}
+
+/// Light from everywhere.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct AmbientTable {
+    /// Linear RGB.
+    pub radiance: [f64; 3],
+}
+
+impl Default for AmbientTable {
+    fn default() -> Self {
+        Self { radiance: [0.36, 0.38, 0.42] }
+    }
+}
+
+/// Where the picture is taken from. At angles 0 the camera looks along -Z.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CameraTable {
+    /// Turn about the vertical.
+    pub yaw_deg: f64,
+    /// Rise above the horizon, -90 to 90.
+    pub pitch_deg: f64,
+    /// From the target; chosen so that everything is in view when absent.
+    pub distance_mm: Option<f64>,
+    /// What the camera looks at; the model's centre when absent.
+    pub target_mm: Option<[f64; 3]>,
+    /// Vertical field of view, 1 to 170.
+    pub fov_y_deg: f64,
+    /// Choose distance and target so that everything is in view, whatever they say.
+    pub fit: bool,
+}
+
+impl Default for CameraTable {
+    fn default() -> Self {
+        Self { yaw_deg: 0.0, pitch_deg: 0.0, distance_mm: None, target_mm: None, fov_y_deg: 35.0, fit: false }
+    }
+}
+
+/// How fibers are shaded.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ShadingTable {
+    /// The scattering model.
+    pub model: ShadingModel,
+}
+
+/// Scattering models.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ShadingModel {
+    /// Wu & Yuksel 2019, Eq. 5.
+    #[default]
+    Simple,
+}
+
+/// Ambient occlusion inside the yarn.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct OcclusionTable {
+    /// How it is worked out.
+    pub mode: OcclusionMode,
+}
+
+/// Ways to work out ambient occlusion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum OcclusionMode {
+    /// A cubic of the distance from the yarn's centre.
+    #[default]
+    Distance,
+    /// Not at all.
+    None,
+}
+
+/// What is traded for time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct QualityTable {
+    /// Leave out pieces of yarn outside the picture.
+    pub culling: bool,
+    /// Straight pieces per turn that stand for a fiber's curve, 4 to 256.
+    pub subdivisions_per_turn: f64,
+    /// Most pieces a fiber is cut into over one piece of yarn, 1 to 64.
+    pub max_subdivisions: u32,
+    /// Patches per draw call; the device's own limit when absent.
+    pub patches_per_draw: Option<u32>,
+}
+
+impl Default for QualityTable {
+    fn default() -> Self {
+        Self { culling: true, subdivisions_per_turn: 20.0, max_subdivisions: 64, patches_per_draw: None }
+    }
+}
+
+/// From radiance to the displayed picture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct DisplayTable {
+    /// Factor of two per stop.
+    pub exposure_stops: f64,
+    /// Radiance behind the cloth, linear RGB; not in the EXR, whose alpha is the yarn's coverage.
+    pub background: [f64; 3],
+}
+
+impl Default for DisplayTable {
+    fn default() -> Self {
+        Self { exposure_stops: 0.0, background: [0.055, 0.06, 0.07] }
+    }
+}
+
+/// Views that show something else than light.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct DebugTable {
+    /// What fibers are coloured by.
+    pub view: DebugView,
+}
+
+/// What fibers are coloured by. The numbers are those of `glsl/passes/fibers.frag`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DebugView {
+    /// Light.
+    #[default]
+    Shaded = 0,
+    /// Normal in world space.
+    Normal = 1,
+    /// Direction of the fiber in world space.
+    Tangent = 2,
+    /// Share of ambient light let through.
+    Occlusion = 3,
+    /// Ply.
+    Ply = 4,
+}
+
+/// Accepts `[fabric]` and `[[fabric]]` alike.
+fn one_or_many<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<FabricTable>, D::Error> {
+    struct OneOrMany;
+    impl<'de> Visitor<'de> for OneOrMany {
+        type Value = Vec<FabricTable>;
+        fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            f.write_str("[fabric] or [[fabric]]")
+        }
+        fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+            FabricTable::deserialize(value::MapAccessDeserializer::new(map)).map(|one| vec![one])
+        }
+        fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Self::Value, A::Error> {
+            let mut many = Vec::new();
+            while let Some(one) = seq.next_element()? {
+                many.push(one);
+            }
+            Ok(many)
+        }
+    }
+    deserializer.deserialize_any(OneOrMany)
+}

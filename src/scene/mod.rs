@@ -1,0 +1,54 @@
+//! What a scene file says, and the fabrics, camera and features that follow from it.
+
+pub mod camera;
+pub mod fabric;
+pub mod features;
+pub mod file;
+pub mod load;
+pub mod overrides;
+
+use crate::io::error::FileError;
+use crate::knit::error::KnitError;
+use crate::yarn::params::ParamError;
+pub use fabric::Fabric;
+pub use file::SceneFile;
+use glam::DVec3;
+
+/// Why a scene cannot be had; each is one line.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    /// A file is missing, unreadable or wrong.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A yarn parameter is out of range.
+    #[error("{scene}: {error}")]
+    Param {
+        /// The scene or yarn file.
+        scene: String,
+        /// The parameter.
+        error: ParamError,
+    },
+    /// Fabric that cannot be knitted.
+    #[error(transparent)]
+    Knit(#[from] KnitError),
+    /// Anything else the scene file says that cannot be.
+    #[error("{scene}: {message}")]
+    Value {
+        /// The scene or yarn file.
+        scene: String,
+        /// The key, what was expected and what was found.
+        message: String,
+    },
+}
+
+/// A scene with its fabrics loaded: lengths in mm, world space Y up.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// What the file said, with defaults filled in.
+    pub file: SceneFile,
+    /// Its fabrics; at least one.
+    pub fabrics: Vec<Fabric>,
+    /// Centre of everything. Positions go to the device relative to it, so that a model far from the
+    /// file's origin keeps its digits.
+    pub origin_mm: DVec3,
+}

@@ -1,0 +1,218 @@
+//! The one function that places a fiber; twin of `glsl/yarn/fiber.glsl`.
+
+use super::migration::migration_radius;
+use super::params::YarnParams;
+use super::table::Fiber;
+use crate::math::curve::bezier_point;
+use crate::math::frame::{direction_or, normal_perpendicular_to};
+use glam::{DVec2, DVec3};
+use std::f64::consts::TAU;
+
+/// Turns at the start of a piece of yarn and what the piece adds to them. Not reduced: f64 carries
+/// the whole count.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Turns {
+    /// At the piece's start.
+    pub start: f64,
+    /// Added over the piece.
+    pub delta: f64,
+}
+
+/// The three rotations of a piece of yarn.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PieceTurns {
+    /// Plies about the yarn.
+    pub ply: Turns,
+    /// Fibers inside the ply's frame.
+    pub fiber: Turns,
+    /// Phase of the fiber's radius R.
+    pub migration: Turns,
+}
+
+/// Rotations at one point of a yarn in radians, and their derivatives by t.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Twist {
+    /// Plies about the yarn.
+    pub ply: f64,
+    /// Fibers inside the ply's frame.
+    pub fiber: f64,
+    /// Phase of R.
+    pub migration: f64,
+    /// d ply / dt.
+    pub ply_rate: f64,
+    /// d fiber / dt.
+    pub fiber_rate: f64,
+    /// d migration / dt.
+    pub migration_rate: f64,
+}
+
+/// The yarn's centre and orthonormal frame at one point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct YarnPoint {
+    /// Position of the centre line.
+    pub center: DVec3,
+    /// Unit tangent.
+    pub tangent: DVec3,
+    /// Unit normal.
+    pub normal: DVec3,
+    /// |d center / dt|.
+    pub speed: f64,
+    /// d^2 center / dt^2.
+    pub bend: DVec3,
+}
+
+/// A point of one fiber.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FiberPoint {
+    /// The yarn's centre at the same t.
+    pub yarn_center: DVec3,
+    /// The ply's centre at the same t.
+    pub ply_center: DVec3,
+    /// The fiber's own centre.
+    pub position: DVec3,
+    /// Unit direction of the fiber.
+    pub tangent: DVec3,
+    /// Distance from the yarn's centre line in the cross-section.
+    pub center_distance: f64,
+}
+
+/// Rotations at t of a piece.
+pub fn twist_at(turns: &PieceTurns, t: f64) -> Twist {
+    let angle = |turns: Turns| TAU * (turns.start + t * turns.delta).rem_euclid(1.0);
+    Twist {
+        ply: angle(turns.ply),
+        fiber: angle(turns.fiber),
+        migration: angle(turns.migration),
+        ply_rate: TAU * turns.ply.delta,
+        fiber_rate: TAU * turns.fiber.delta,
+        migration_rate: TAU * turns.migration.delta,
+    }
+}
+
+/// Unit tangent of the Bezier piece `b` where its derivative is `derivative`. A cusp or a zero-length
+/// piece has none: the chord stands in, then the legs.
+pub fn piece_tangent(b: &[DVec3; 4], derivative: DVec3) -> DVec3 {
+    direction_or(derivative, direction_or(b[3] - b[0], direction_or(b[2] - b[1], DVec3::X)))
+}
+
+/// The unit `normal`, perpendicular to `from`, turned by the smallest rotation that takes the unit
+/// tangent `from` to `to`, times 1 + from . to: no division, so no pole where the yarn doubles back.
+pub fn turned_normal(from: DVec3, to: DVec3, normal: DVec3) -> DVec3 {
+    (1.0 + from.dot(to)) * normal - normal.dot(to) * (from + to)
+}
+
+/// Centre and frame at t of the Bezier piece `b` whose knots carry the given unit normals. Both
+/// normals are turned to the tangent at t and blended, the nearer one and the less turned one first.
+pub fn yarn_point(b: &[DVec3; 4], normals: [DVec3; 2], t: f64) -> YarnPoint {
+    let c = bezier_point(b, t);
+    let tangent = piece_tangent(b, c.derivative);
+    let start = turned_normal(piece_tangent(b, b[1] - b[0]), tangent, normals[0]);
+    let end = turned_normal(piece_tangent(b, b[3] - b[2]), tangent, normals[1]);
+    YarnPoint {
+        center: c.position,
+        tangent,
+        normal: normal_perpendicular_to(tangent, (1.0 - t) * start + t * end),
+        speed: c.derivative.length(),
+        bend: c.second_derivative,
+    }
+}
+
+/// Wu & Yuksel 2019, Sec. 3.1: ply centre, then the fiber inside the ply's rotating elliptical frame.
+pub fn fiber_point(yarn_at: &YarnPoint, twist: &Twist, yarn: &YarnParams, fiber: &Fiber) -> FiberPoint {
+    let ply_angle = TAU * f64::from(fiber.ply) / f64::from(yarn.ply_count) + twist.ply;
+    let (sin_fiber, cos_fiber) = (fiber.angle + twist.fiber).sin_cos();
+    let (r, r_slope) = migration_radius(
+        fiber.radius,
+        fiber.migration_phase + twist.migration,
+        yarn.migration_min,
+        yarn.migration_max,
+    );
+    let r_rate = r_slope * twist.migration_rate;
+
+    // Offsets in the ply's frame: x away from the yarn's centre, y around it.
+    let axes = DVec2::new(yarn.ellipse_short_mm, yarn.ellipse_long_mm);
+    let offset = r * DVec2::new(cos_fiber, sin_fiber) * axes;
+    let rate = (r_rate * DVec2::new(cos_fiber, sin_fiber)
+        + r * twist.fiber_rate * DVec2::new(-sin_fiber, cos_fiber))
+        * axes;
+
+    let binormal = yarn_at.tangent.cross(yarn_at.normal);
+    let normal_ply = ply_angle.cos() * yarn_at.normal + ply_angle.sin() * binormal;
+    let binormal_ply = yarn_at.tangent.cross(normal_ply);
+    let away = yarn.ply_offset_mm() + offset.x;
+    let from_center = away * normal_ply + offset.y * binormal_ply;
+
+    // On the inside of a bend the fiber advances less than the centre line.
+    let bend_speed = from_center.dot(yarn_at.bend) / yarn_at.speed.max(1e-12);
+    let velocity = (yarn_at.speed - bend_speed) * yarn_at.tangent
+        + (rate.x - twist.ply_rate * offset.y) * normal_ply
+        + (rate.y + twist.ply_rate * away) * binormal_ply;
+    FiberPoint {
+        yarn_center: yarn_at.center,
+        ply_center: yarn_at.center + yarn.ply_offset_mm() * normal_ply,
+        position: yarn_at.center + from_center,
+        tangent: direction_or(velocity, yarn_at.tangent),
+        center_distance: away.hypot(offset.y),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::yarn::presets;
+
+    fn straight(turns_per_mm: f64) -> ([DVec3; 4], PieceTurns) {
+        let p = [0.0, 0.4, 0.8, 1.2].map(|x| DVec3::new(x, 0.0, 0.0));
+        let turns = |delta| Turns { start: 0.3, delta };
+        let pieces = PieceTurns {
+            ply: turns(turns_per_mm),
+            fiber: turns(-1.3 * turns_per_mm),
+            migration: turns(0.7 * turns_per_mm),
+        };
+        (p, pieces)
+    }
+
+    #[test]
+    fn tangent_matches_a_finite_difference_on_a_straight_yarn() {
+        let yarn = presets::yarn("worsted_3ply").unwrap();
+        let fiber = Fiber { radius: 0.8, angle: 1.0, migration_phase: 2.0, ply: 2 };
+        let (p, turns) = straight(0.2);
+        let at = |t| {
+            let y = yarn_point(&p, [DVec3::Y, DVec3::Y], t);
+            fiber_point(&y, &twist_at(&turns, t), &yarn, &fiber)
+        };
+        let h = 1e-6;
+        let slope = (at(0.4 + h).position - at(0.4 - h).position).normalize();
+        assert!((slope - at(0.4).tangent).length() < 1e-8);
+    }
+
+    #[test]
+    fn tangent_matches_a_finite_difference_on_a_planar_bend() {
+        // In a plane the constant binormal is rotation-minimising, so the formula must be exact.
+        let yarn = presets::yarn("worsted_3ply").unwrap();
+        let fiber = Fiber { radius: 0.9, angle: 0.4, migration_phase: 2.0, ply: 1 };
+        let p = [(0.0, 0.0), (0.8, -0.3), (1.6, -0.2), (2.0, 0.5)].map(|(x, y)| DVec3::new(x, y, 0.0));
+        let (_, turns) = straight(0.1);
+        let at = |t| {
+            let y = yarn_point(&p, [DVec3::Z, DVec3::Z], t);
+            fiber_point(&y, &twist_at(&turns, t), &yarn, &fiber)
+        };
+        let h = 1e-6;
+        let slope = (at(0.6 + h).position - at(0.6 - h).position).normalize();
+        assert!((slope - at(0.6).tangent).length() < 1e-8);
+    }
+
+    #[test]
+    fn degenerate_pieces_stay_finite() {
+        let yarn = presets::yarn("worsted_3ply").unwrap();
+        let fiber = Fiber { radius: 0.8, angle: 1.0, migration_phase: 2.0, ply: 2 };
+        let hairpin = [DVec3::ZERO, DVec3::X, DVec3::X, DVec3::ZERO];
+        for p in [[DVec3::ZERO; 4], hairpin] {
+            for normals in [[DVec3::Y, -DVec3::Y], [DVec3::X, DVec3::X]] {
+                let y = yarn_point(&p, normals, 0.5);
+                let f = fiber_point(&y, &twist_at(&PieceTurns::default(), 0.5), &yarn, &fiber);
+                assert!(f.position.is_finite() && (f.tangent.length() - 1.0).abs() < 1e-12);
+            }
+        }
+    }
+}

@@ -1,0 +1,249 @@
+//! Centre lines made ready for fibers: windows of control points, rest lengths, turns and frames.
+
+use super::fiber::{PieceTurns, Turns};
+use super::params::YarnParams;
+use super::transport::{close_normals, knot_normals};
+use crate::math::curve::{Basis, Curve, arc_length, bezier_from_basis};
+use crate::math::rng::Rng;
+use glam::DVec3;
+
+/// One cubic piece of a yarn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// Index of the first of its four control points in [`Strands::points`].
+    pub first_point: usize,
+    /// The curve it belongs to.
+    pub curve: usize,
+    /// Rest length of the curve before this piece, in mm.
+    pub length_start_mm: f64,
+    /// Rest length of this piece, in mm.
+    pub length_mm: f64,
+    /// Rotations at its start and over it.
+    pub turns: PieceTurns,
+}
+
+/// All yarns of a fabric, ready to carry fibers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Strands {
+    /// How the windows of four points are to be read. Never `Polyline`: see [`strands`].
+    pub basis: Basis,
+    /// Control points in mm with phantom and wrapped ones in place, so that every piece reads four in a
+    /// row.
+    pub points: Vec<DVec3>,
+    /// Unit normal of the knot at each control point; arbitrary at points that are no knot.
+    pub normals: Vec<DVec3>,
+    /// The pieces, curve by curve.
+    pub pieces: Vec<Piece>,
+    /// Control points as given, without phantom ones.
+    pub control_point_count: usize,
+}
+
+impl Strands {
+    /// The four control points of a piece.
+    pub fn window(&self, piece: &Piece) -> [DVec3; 4] {
+        std::array::from_fn(|k| self.points[piece.first_point + k])
+    }
+
+    /// A piece as a Bezier curve.
+    pub fn bezier(&self, piece: &Piece) -> [DVec3; 4] {
+        bezier_from_basis(&self.window(piece), self.basis)
+    }
+
+    /// Unit normals at the two knots of a piece.
+    pub fn knot_normals(&self, piece: &Piece) -> [DVec3; 2] {
+        knot_offsets(self.basis).map(|k| self.normals[piece.first_point + k])
+    }
+}
+
+/// Which two of a window's points carry the normals of the piece's knots.
+fn knot_offsets(basis: Basis) -> [usize; 2] {
+    if basis == Basis::Bezier { [0, 3] } else { [1, 2] }
+}
+
+/// The curve's control points with what its windows need besides: the neighbours across the closing
+/// point, or phantom points reflected at open ends.
+fn window_points(curve: &Curve, basis: Basis) -> Vec<DVec3> {
+    let p = &curve.points;
+    let n = p.len();
+    let mut points = Vec::with_capacity(n + 3);
+    match (basis, curve.closed) {
+        (Basis::Bezier, closed) => {
+            points.extend_from_slice(p);
+            points.extend(closed.then(|| p[0]));
+        }
+        (_, true) => {
+            points.push(p[n - 1]);
+            points.extend_from_slice(p);
+            points.extend([p[0], p[1 % n]]);
+        }
+        (_, false) => {
+            points.push(2.0 * p[0] - p[1]);
+            points.extend_from_slice(p);
+            points.push(2.0 * p[n - 1] - p[n - 2]);
+        }
+    }
+    points
+}
+
+/// Turns per mm so that a closed curve of `length_mm` makes a whole number of them, at least one; an
+/// open or untwisted curve keeps its own.
+fn closed_rate(turns_per_mm: f64, length_mm: f64, closed: bool) -> f64 {
+    let turns = turns_per_mm * length_mm;
+    if !closed || turns == 0.0 || length_mm <= 0.0 {
+        return turns_per_mm;
+    }
+    turns.abs().round().max(1.0).copysign(turns) / length_mm
+}
+
+/// Prepares all curves (in mm) of a fabric. A polyline is read as Catmull-Rom through its points: its
+/// corners would tear the cross-sections apart. Curves of fewer than two points, or a Bezier curve
+/// without a whole piece, are left out. `seed` gives each curve its own phase.
+pub fn strands(curves: &[Curve], basis: Basis, yarn: &YarnParams, seed: u64) -> Strands {
+    let basis = if basis == Basis::Polyline { Basis::CatmullRom } else { basis };
+    let mut all = Strands {
+        basis,
+        points: Vec::new(),
+        normals: Vec::new(),
+        pieces: Vec::new(),
+        control_point_count: curves.iter().map(|c| c.points.len()).sum(),
+    };
+    for (index, curve) in curves.iter().enumerate() {
+        if curve.points.len() >= 2 {
+            append(&mut all, index, curve, yarn, seed);
+        }
+    }
+    all
+}
+
+fn append(all: &mut Strands, index: usize, curve: &Curve, yarn: &YarnParams, seed: u64) {
+    let points = window_points(curve, all.basis);
+    let stride = if all.basis == Basis::Bezier { 3 } else { 1 };
+    let starts: Vec<usize> = (0..points.len().saturating_sub(3)).step_by(stride).collect();
+    let window = |&first: &usize| -> [DVec3; 4] { std::array::from_fn(|k| points[first + k]) };
+    let beziers: Vec<_> = starts.iter().map(|s| bezier_from_basis(&window(s), all.basis)).collect();
+    let lengths: Vec<f64> = beziers.iter().map(|b| arc_length(b, Basis::Bezier, 0.0, 1.0)).collect();
+    let total: f64 = lengths.iter().sum();
+
+    let mut knots = knot_normals(&beziers);
+    if curve.closed {
+        close_normals(&beziers, &lengths, &mut knots);
+    }
+    let mut normals = vec![DVec3::X; points.len()];
+    for (k, start) in starts.iter().enumerate() {
+        for (offset, knot) in knot_offsets(all.basis).into_iter().zip([k, k + 1]) {
+            normals[start + offset] = knots[knot];
+        }
+    }
+
+    let rates = rates(yarn, total, curve.closed);
+    let mut rng = Rng::new(seed, &[index as u64]);
+    let phases: [f64; 3] = std::array::from_fn(|_| rng.uniform());
+    let mut length_start_mm = 0.0;
+    for (start, length_mm) in starts.iter().zip(lengths) {
+        let turns = |which: usize| Turns {
+            start: phases[which] + rates[which] * length_start_mm,
+            delta: rates[which] * length_mm,
+        };
+        all.pieces.push(Piece {
+            first_point: all.points.len() + start,
+            curve: index,
+            length_start_mm,
+            length_mm,
+            turns: PieceTurns { ply: turns(0), fiber: turns(1), migration: turns(2) },
+        });
+        length_start_mm += length_mm;
+    }
+    all.points.extend(points);
+    all.normals.extend(normals);
+}
+
+/// Turns per mm of plies, fibers and migration for one curve.
+fn rates(yarn: &YarnParams, length_mm: f64, closed: bool) -> [f64; 3] {
+    let fiber = yarn.fiber_turns_per_mm();
+    [yarn.ply_turns_per_mm(), fiber, yarn.migration_rate * fiber].map(|r| closed_rate(r, length_mm, closed))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::yarn::fiber::{fiber_point, twist_at, yarn_point};
+    use crate::yarn::presets;
+    use crate::yarn::table::fiber_table;
+    use std::f64::consts::TAU;
+
+    fn wavy_loop() -> Curve {
+        let points = (0..60)
+            .map(|i| {
+                let u = TAU * f64::from(i) / 60.0;
+                DVec3::new((10.0 + (4.0 * u).cos()) * u.cos(), (10.0 + (4.0 * u).cos()) * u.sin(), (7.0 * u).sin())
+            })
+            .collect();
+        Curve { points, closed: true }
+    }
+
+    #[test]
+    fn fibers_of_a_closed_curve_meet_at_the_closing_point() {
+        let yarn = presets::yarn("worsted_3ply").unwrap();
+        let strands = strands(&[wavy_loop()], Basis::CatmullRom, &yarn, 9);
+        assert_eq!(strands.pieces.len(), 60);
+        let at = |piece: &Piece, t: f64, fiber| {
+            let y = yarn_point(&strands.bezier(piece), strands.knot_normals(piece), t);
+            fiber_point(&y, &twist_at(&piece.turns, t), &yarn, fiber)
+        };
+        for fiber in &fiber_table(&yarn, 2) {
+            let begin = at(&strands.pieces[0], 0.0, fiber).position;
+            let end = at(&strands.pieces[59], 1.0, fiber).position;
+            assert!((begin - end).length() < 1e-3 * yarn.ellipse_long_mm, "{begin} vs {end}");
+        }
+    }
+
+    #[test]
+    fn neighbouring_pieces_meet_for_every_basis() {
+        let yarn = presets::yarn("worsted_3ply").unwrap();
+        let fiber = fiber_table(&yarn, 2)[0];
+        for basis in [Basis::CatmullRom, Basis::BSpline, Basis::Bezier, Basis::Polyline] {
+            for closed in [true, false] {
+                let mut curve = wavy_loop();
+                curve.closed = closed;
+                if basis == Basis::Bezier && !closed {
+                    curve.points.truncate(58);
+                }
+                let strands = strands(&[curve], basis, &yarn, 9);
+                for pair in strands.pieces.windows(2) {
+                    let at = |piece: &Piece, t: f64| {
+                        let y = yarn_point(&strands.bezier(piece), strands.knot_normals(piece), t);
+                        fiber_point(&y, &twist_at(&piece.turns, t), &yarn, &fiber)
+                    };
+                    let (end, begin) = (at(&pair[0], 1.0), at(&pair[1], 0.0));
+                    // A Bezier chain through arbitrary points has corners; its centre line still meets.
+                    let gap = if basis == Basis::Bezier {
+                        (end.yarn_center - begin.yarn_center).length()
+                    } else {
+                        (end.position - begin.position).length()
+                    };
+                    assert!(gap < 1e-9, "{basis:?} closed {closed}: gap {gap}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_open_curve_reaches_its_ends() {
+        let yarn = presets::yarn("worsted_3ply").unwrap();
+        let curve = Curve { points: vec![DVec3::ZERO, DVec3::X, DVec3::new(2.0, 1.0, 0.0)], closed: false };
+        for basis in [Basis::CatmullRom, Basis::BSpline] {
+            let strands = strands(std::slice::from_ref(&curve), basis, &yarn, 0);
+            assert_eq!(strands.pieces.len(), 2);
+            assert!((strands.bezier(&strands.pieces[0])[0] - curve.points[0]).length() < 1e-14);
+            assert!((strands.bezier(&strands.pieces[1])[3] - curve.points[2]).length() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn short_closed_curves_make_at_least_one_turn() {
+        assert_eq!(closed_rate(-0.01, 10.0, true), -0.1);
+        assert_eq!(closed_rate(0.26, 10.0, true), 0.3);
+        assert_eq!(closed_rate(0.26, 10.0, false), 0.26);
+        assert_eq!(closed_rate(0.0, 10.0, true), 0.0);
+    }
+}
