@@ -4,9 +4,9 @@ pub mod sampling;
 pub mod stats;
 pub mod upload;
 
+use crate::gpu_types::Statistics;
 use crate::graph::{Graph, Pass};
 use crate::io::picture::{DisplayImage, LinearImage};
-use crate::gpu_types::Statistics;
 use crate::passes::draw_plan::DrawPlan;
 use crate::passes::fibers::FibersPass;
 use crate::passes::resolve::ResolvePass;
@@ -82,7 +82,7 @@ impl Renderer {
             let plan = DrawPlan::new(
                 fabric.strands.pieces.len() as u32,
                 fabric.yarn.fiber_count(),
-                upload::most_subdivisions(fabric, &scene.file.quality),
+                scene.file.quality.max_subdivisions,
                 device.is_cpu(),
                 scene.file.quality.patches_per_draw,
             );
@@ -93,7 +93,19 @@ impl Renderer {
         let tonemap = TonemapPass::new(device, &targets, &scene.file.display)?;
         let device = device.clone();
         let graph = Graph::default();
-        Ok(Self { device, scene, request, targets, frame, statistics, fibers, resolve, tonemap, graph, stats })
+        Ok(Self {
+            device,
+            scene,
+            request,
+            targets,
+            frame,
+            statistics,
+            fibers,
+            resolve,
+            tonemap,
+            graph,
+            stats,
+        })
     }
 
     /// The camera the scene asks for.
@@ -123,10 +135,8 @@ impl Renderer {
         for (index, &jitter) in jitters.iter().enumerate() {
             let frame = upload::frame(&self.scene, &camera, self.request.size, jitter);
             self.frame.write(0, &[frame])?;
-            let mut work = vec![
-                self.fibers.pass(&self.targets),
-                self.resolve.pass(&self.targets, index, jitters.len()),
-            ];
+            let mut work =
+                vec![self.fibers.pass(&self.targets), self.resolve.pass(&self.targets, index, jitters.len())];
             if index + 1 == jitters.len() {
                 work.push(self.tonemap.pass(&self.targets));
             }

@@ -81,12 +81,12 @@ pub struct Yarn {
     pub fiber_radius: f32,
     /// Of the circle around all plies.
     pub outer_radius: f32,
-    /// Straight pieces per turn of a fiber.
-    pub subdivisions_per_turn: f32,
     /// Most pieces over one piece of yarn.
     pub max_subdivisions: u32,
     /// Pieces of yarn.
     pub segment_count: u32,
+    /// Not used.
+    pub padding: u32,
     /// Visibility as a cubic of (distance from the centre / outer radius).
     pub occlusion: [f32; 4],
     /// k_d, rgb.
@@ -111,6 +111,14 @@ pub struct Frame {
     pub light_irradiance: [f32; 4],
     /// rgb.
     pub ambient_radiance: [f32; 4],
+    /// Allowed departure of a fiber's chords, per mm of distance from the eye.
+    pub tolerance_per_mm: f32,
+    /// Distance of the near plane.
+    pub near_mm: f32,
+    /// Not used.
+    pub padding: f32,
+    /// Not used.
+    pub padding2: f32,
 }
 
 /// Counted by the control stage.

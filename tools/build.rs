@@ -2,8 +2,8 @@
 
 use glslang::include::{IncludeHandler, IncludeResult, IncludeType};
 use glslang::{
-    Compiler, CompilerOptions, Shader, ShaderInput, ShaderSource, ShaderStage, SpirvVersion,
-    Target, VulkanVersion,
+    Compiler, CompilerOptions, Shader, ShaderInput, ShaderSource, ShaderStage, SpirvVersion, Target,
+    VulkanVersion,
 };
 use std::fmt::Write;
 use std::path::{Component, Path, PathBuf};
@@ -58,10 +58,7 @@ fn compile(file: &Path, name: &str, stage: ShaderStage, root: &Path) -> Vec<u32>
     let mut includes = Includes { root, main: name };
     let compiler = Compiler::acquire().expect("glslang initialises");
     let options = CompilerOptions {
-        target: Target::Vulkan {
-            version: VulkanVersion::Vulkan1_3,
-            spirv_version: SpirvVersion::SPIRV1_6,
-        },
+        target: Target::Vulkan { version: VulkanVersion::Vulkan1_3, spirv_version: SpirvVersion::SPIRV1_6 },
         ..Default::default()
     };
     let shader_source = ShaderSource::from(source);

@@ -34,8 +34,9 @@ void main() {
     bool culled = CULLING && outside_frustum(b, yarn.outer_radius + yarn.fiber_radius, frame.frustum_world);
 
     uint fiber_count = min(FIBERS_PER_PATCH, yarn.fiber_count - first_fiber[0]);
-    uint pieces = subdivisions(b, segment.ply_turns_delta, segment.fiber_turns_delta,
-                               yarn.subdivisions_per_turn, yarn.max_subdivisions);
+    float distance_mm = nearest_distance(b, frame.eye_world.xyz, yarn.outer_radius, frame.near_mm);
+    uint pieces = subdivisions(b, segment.ply_turns_delta, segment.fiber_turns_delta, yarn.ply_offset,
+                               yarn.ellipse_long, frame.tolerance_per_mm * distance_mm, yarn.max_subdivisions);
     patch_segment = segment_index[0];
     patch_first_fiber = first_fiber[0];
     // The evaluation stage sees levels before clamping, so it gets the count itself.

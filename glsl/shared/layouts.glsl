@@ -44,9 +44,9 @@ struct Yarn {
     float migration_max;    // R_max
     float fiber_radius;
     float outer_radius;
-    float subdivisions_per_turn;
     uint max_subdivisions;
     uint segment_count;
+    uint padding;
     vec4 occlusion;         // visibility as a cubic of (distance from the centre / outer_radius)
     vec4 diffuse;           // k_d, rgb
     vec4 specular;          // k_s, rgb; a: beta, radians
@@ -60,6 +60,10 @@ struct Frame {
     vec4 light_direction_world; // xyz: unit, toward the light
     vec4 light_irradiance;      // rgb, on a surface facing the light
     vec4 ambient_radiance;      // rgb
+    float tolerance_per_mm;     // allowed departure of a chord, per mm of distance from the eye
+    float near_mm;              // distance of the near plane
+    float padding;
+    float padding2;
 };
 
 // Counted by the control stage; each count is two words, low then high.

@@ -30,7 +30,8 @@ mod tests {
 
     #[test]
     fn specular_peaks_in_the_mirror_cone_and_fades_by_the_gaussian() {
-        let at = |theta: f64, phi: f64| DVec3::new(theta.cos() * phi.cos(), theta.cos() * phi.sin(), theta.sin());
+        let at =
+            |theta: f64, phi: f64| DVec3::new(theta.cos() * phi.cos(), theta.cos() * phi.sin(), theta.sin());
         let width = 0.1;
         let peak = simple_specular_cos(DVec3::Z, at(0.3, 0.0), at(-0.3, 0.0), width);
         assert!((peak - 0.3f64.cos()).abs() < 1e-12);

@@ -45,7 +45,12 @@ fn print_report(report: &DoctorReport) {
 fn print_device(device: &DeviceFacts, chosen: bool) {
     let mark = if chosen { "would be used" } else { "not used" };
     println!("device {}: {} ({}), {mark}", device.index, device.name, device.kind);
-    println!("  Vulkan {}, driver {}, {} MiB", device.api_version, device.driver, device.device_memory_bytes >> 20);
+    println!(
+        "  Vulkan {}, driver {}, {} MiB",
+        device.api_version,
+        device.driver,
+        device.device_memory_bytes >> 20
+    );
     for (need, met) in &device.needs {
         println!("  needs {need}: {}", if *met { "yes" } else { "MISSING" });
     }

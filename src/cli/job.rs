@@ -83,7 +83,8 @@ fn camera_assignments(text: &str) -> Result<Vec<String>, Error> {
             assignments.push("camera.fit=true".to_owned());
             continue;
         }
-        let (key, value) = part.split_once('=').ok_or_else(|| wrong(format!("expected key=value, found `{part}`")))?;
+        let (key, value) =
+            part.split_once('=').ok_or_else(|| wrong(format!("expected key=value, found `{part}`")))?;
         assignments.push(match key {
             "yaw" | "pitch" => format!("camera.{key}_deg={:?}", number(value)?),
             "fov" => format!("camera.fov_y_deg={:?}", number(value)?),
@@ -95,7 +96,11 @@ fn camera_assignments(text: &str) -> Result<Vec<String>, Error> {
                 }
                 format!("camera.target_mm={xyz:?}")
             }
-            _ => return Err(wrong(format!("expected yaw, pitch, distance, target, fov or fit, found `{key}`"))),
+            _ => {
+                return Err(wrong(format!(
+                    "expected yaw, pitch, distance, target, fov or fit, found `{key}`"
+                )));
+            }
         });
     }
     Ok(assignments)
@@ -116,8 +121,12 @@ mod tests {
     #[test]
     fn cameras() {
         let good = camera_assignments("yaw=-30,pitch=20,distance=400,target=1:2:-3.5").unwrap();
-        let expected =
-            ["camera.yaw_deg=-30.0", "camera.pitch_deg=20.0", "camera.distance_mm=400.0", "camera.target_mm=[1.0, 2.0, -3.5]"];
+        let expected = [
+            "camera.yaw_deg=-30.0",
+            "camera.pitch_deg=20.0",
+            "camera.distance_mm=400.0",
+            "camera.target_mm=[1.0, 2.0, -3.5]",
+        ];
         assert_eq!(good, expected);
         assert_eq!(camera_assignments("fit").unwrap(), ["camera.fit=true"]);
         for bad in ["yaw", "roll=3", "yaw=x", "target=1:2", "yaw=nan", ""] {

@@ -20,7 +20,8 @@ pub fn run(job: &RenderJob) -> Result<(), Error> {
     let stats = draw(job, &device)?;
     Device::shutdown(device)?;
     if let Some(path) = &job.stats {
-        let text = serde_json::to_string_pretty(&stats).map_err(|e| Error::Failed(format!("statistics: {e}")))?;
+        let text =
+            serde_json::to_string_pretty(&stats).map_err(|e| Error::Failed(format!("statistics: {e}")))?;
         write_text(path, &text)?;
     }
     if job.explain {

@@ -10,7 +10,6 @@ use crate::scene::file::QualityTable;
 use crate::scene::{Fabric, Scene};
 use crate::vulkan::{Buffer, Device, VulkanError, vk};
 use crate::yarn::fiber::Turns;
-use crate::yarn::level::subdivisions;
 use crate::yarn::strand::Piece;
 use crate::yarn::table::fiber_table;
 use glam::{DMat4, DVec2, DVec3, DVec4};
@@ -79,24 +78,13 @@ pub fn yarn(fabric: &Fabric, quality: &QualityTable, features: &Features) -> Yar
         migration_max: params.migration_max as f32,
         fiber_radius: params.fiber_radius_mm() as f32,
         outer_radius: params.outer_radius_mm() as f32,
-        subdivisions_per_turn: quality.subdivisions_per_turn as f32,
         max_subdivisions: quality.max_subdivisions,
         segment_count: fabric.strands.pieces.len() as u32,
+        padding: 0,
         occlusion: occlusion.as_vec4().to_array(),
         diffuse: rgb(fabric.fiber.diffuse),
         specular: DVec4::new(k_r, k_g, k_b, beta).as_vec4().to_array(),
     }
-}
-
-/// Most pieces any fiber of the fabric is cut into. One more than the f64 figure where that is not
-/// yet the limit, since f32 may round a product up past a whole number.
-pub fn most_subdivisions(fabric: &Fabric, quality: &QualityTable) -> u32 {
-    let (per_turn, largest) = (quality.subdivisions_per_turn, quality.max_subdivisions);
-    let pieces = |piece: &Piece| {
-        let b = fabric.strands.bezier(piece);
-        subdivisions(&b, piece.turns.ply.delta, piece.turns.fiber.delta, per_turn, largest)
-    };
-    (fabric.strands.pieces.iter().map(pieces).max().unwrap_or(1) + 1).min(largest)
 }
 
 /// The camera and light of one jittered frame.
@@ -110,6 +98,10 @@ pub fn frame(scene: &Scene, camera: &Camera, size: [u32; 2], jitter: DVec2) -> F
         light_direction_world: to_light.extend(0.0).as_vec4().to_array(),
         light_irradiance: rgb(light.irradiance),
         ambient_radiance: rgb(scene.file.ambient.radiance),
+        tolerance_per_mm: (scene.file.quality.subdivision_tolerance_px * camera.pixel_tangent(size)) as f32,
+        near_mm: camera.near_mm as f32,
+        padding: 0.0,
+        padding2: 0.0,
     }
 }
 
@@ -141,6 +133,11 @@ pub fn fabric_buffers(
         )?,
         segments: Buffer::upload(device, "yarn segments", usage, &segments(fabric))?,
         fibers: Buffer::upload(device, "fibers", usage, &fibers(fabric, scene.file.seed))?,
-        yarn: Buffer::upload(device, "yarn parameters", usage, &[yarn(fabric, &scene.file.quality, features)])?,
+        yarn: Buffer::upload(
+            device,
+            "yarn parameters",
+            usage,
+            &[yarn(fabric, &scene.file.quality, features)],
+        )?,
     })
 }

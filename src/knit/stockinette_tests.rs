@@ -81,7 +81,7 @@ fn strands_nearly_touch_wherever_they_cross() {
     assert!(judge(&p, &swatch).is_ok());
     for crossing in crossings_along_z(&swatch) {
         let gap = (crossing.over.position.z - crossing.under.position.z) / (2.0 * p.yarn_radius_mm);
-        assert!((KEPT_DISTANCE..1.6).contains(&gap), "{gap}: {crossing:?}");
+        assert!((KEPT_DISTANCE..1.15).contains(&gap), "{gap}: {crossing:?}");
     }
 }
 
@@ -179,33 +179,5 @@ fn bad_parameters_are_named_in_one_line() {
     ] {
         let line = stockinette(&p).unwrap_err().to_string();
         assert!(line.contains("expected") && !line.contains('\n'), "{line}");
-    }
-}
-#[test]
-fn dbg_numbers() {
-    for (q, p) in [(20, StockinetteParams::default()), (24, StockinetteParams { points_per_loop: 24, ..Default::default() }), (16, StockinetteParams { points_per_loop: 16, ..Default::default() })] {
-        let t = std::time::Instant::now();
-        let s = stockinette(&p).unwrap();
-        let made = t.elapsed();
-        let c = min_clearance(&s, p.arc_skip_mm()).unwrap();
-        let t2 = t.elapsed();
-        let r = min_curvature_radius(&s).unwrap() / p.yarn_radius_mm;
-        let g: Vec<f64> = crossings_along_z(&s).iter().map(|c| (c.over.position.z - c.under.position.z) / 1.5).collect();
-        let (a, b) = (g.iter().cloned().fold(9.0, f64::min), g.iter().cloned().fold(0.0, f64::max));
-        // true local clearance at crossings: distance of strands near each crossing
-        println!("NUM {q} made {made:?} clear {:?} rel {:.4} curv {r:.3} z gaps {a:.3}..{b:.3} crossings {} points {}", t2 - made, c.distance / 1.5, g.len(), s.point_count());
-        // local clearance per crossing
-        let curve = &s.curves[0];
-        let pcs = super::fine::pieces(curve, s.basis);
-        let at = |u: f64| crate::math::curve::curve_point(&pcs[u as usize].1, s.basis, u.fract()).position;
-        let mut worst: f64 = 0.0;
-        for c in crossings_along_z(&s) {
-            let mut m: f64 = 9.0;
-            for i in -40..=40 { for j in -40..=40 {
-                m = m.min(at(c.over.parameter + i as f64 * 0.05).distance(at(c.under.parameter + j as f64 * 0.05)));
-            } }
-            worst = worst.max(m / 1.5);
-        }
-        println!("NUM widest local clearance at a crossing {worst:.4} diameters");
     }
 }

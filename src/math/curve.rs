@@ -45,7 +45,10 @@ pub fn bezier_point(b: &[DVec3; 4], t: f64) -> CurvePoint {
     let s = 1.0 - t;
     let [d0, d1, d2] = [b[1] - b[0], b[2] - b[1], b[3] - b[2]];
     CurvePoint {
-        position: b[0] * (s * s * s) + b[1] * (3.0 * s * s * t) + b[2] * (3.0 * s * t * t) + b[3] * (t * t * t),
+        position: b[0] * (s * s * s)
+            + b[1] * (3.0 * s * s * t)
+            + b[2] * (3.0 * s * t * t)
+            + b[3] * (t * t * t),
         derivative: 3.0 * (s * s * d0 + 2.0 * s * t * d1 + t * t * d2),
         second_derivative: 6.0 * (s * (d1 - d0) + t * (d2 - d1)),
     }
@@ -70,7 +73,8 @@ pub fn bezier_from_basis(p: &[DVec3; 4], basis: Basis) -> [DVec3; 4] {
 pub fn arc_length(p: &[DVec3; 4], basis: Basis, start: f64, end: f64) -> f64 {
     let speed = |t: f64| curve_point(p, basis, t).derivative.length();
     let middle = 0.5 * (start + end);
-    super::quadrature::gauss_legendre(start, middle, speed) + super::quadrature::gauss_legendre(middle, end, speed)
+    super::quadrature::gauss_legendre(start, middle, speed)
+        + super::quadrature::gauss_legendre(middle, end, speed)
 }
 
 #[cfg(test)]
@@ -96,7 +100,8 @@ mod tests {
                 0.5 * (t3 - t2),
             ],
             Basis::BSpline => {
-                [s * s * s, 3.0 * t3 - 6.0 * t2 + 4.0, -3.0 * t3 + 3.0 * t2 + 3.0 * t + 1.0, t3].map(|w| w / 6.0)
+                [s * s * s, 3.0 * t3 - 6.0 * t2 + 4.0, -3.0 * t3 + 3.0 * t2 + 3.0 * t + 1.0, t3]
+                    .map(|w| w / 6.0)
             }
             Basis::Bezier => [s * s * s, 3.0 * s * s * t, 3.0 * s * t2, t3],
             Basis::Polyline => [0.0, s, t, 0.0],

@@ -85,7 +85,11 @@ mod tests {
     #[test]
     fn tiny_and_huge_vectors_keep_their_direction() {
         for scale in [1e-11, 1.0, 1e200] {
-            assert!((direction_or(DVec3::new(3.0, 4.0, 0.0) * scale, DVec3::Z) - DVec3::new(0.6, 0.8, 0.0)).length() < 1e-14);
+            assert!(
+                (direction_or(DVec3::new(3.0, 4.0, 0.0) * scale, DVec3::Z) - DVec3::new(0.6, 0.8, 0.0))
+                    .length()
+                    < 1e-14
+            );
         }
         assert_eq!(direction_or(DVec3::ZERO, DVec3::Z), DVec3::Z);
     }

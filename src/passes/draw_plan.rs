@@ -38,7 +38,12 @@ impl DrawPlan {
     pub fn new(patches: u32, fibers: u32, max_subdivisions: u32, is_cpu: bool, asked: Option<u32>) -> Self {
         let groups = fibers.div_ceil(FIBERS_PER_PATCH).max(1);
         let default = if is_cpu { CPU_PATCHES_PER_DRAW } else { GPU_PATCHES_PER_DRAW };
-        let mut plan = Self { patches, groups, patches_per_draw: asked.unwrap_or(default).max(1), groups_per_draw: groups };
+        let mut plan = Self {
+            patches,
+            groups,
+            patches_per_draw: asked.unwrap_or(default).max(1),
+            groups_per_draw: groups,
+        };
         if is_cpu {
             let per_group = fibers.clamp(1, FIBERS_PER_PATCH) * (max_subdivisions + 1);
             let patch_groups = (CPU_MAX_EVALUATED_VERTICES / per_group).max(1);

@@ -115,7 +115,11 @@ impl FibersPass {
         Ok(())
     }
 
-    fn build_pipeline(&self, features: &Features, samples: vk::SampleCountFlags) -> Result<Pipeline, VulkanError> {
+    fn build_pipeline(
+        &self,
+        features: &Features,
+        samples: vk::SampleCountFlags,
+    ) -> Result<Pipeline, VulkanError> {
         use vk::ShaderStageFlags as Stage;
         let constants = specialization(features);
         let files = [
@@ -173,7 +177,8 @@ impl FibersPass {
                 }],
                 depth: Some(DepthTarget { view: targets.depth.view(), clear: Some(0.0), store: false }),
             };
-            commands.render(&rendering, || self.fabrics.iter().for_each(|fabric| self.draw(commands, fabric)));
+            commands
+                .render(&rendering, || self.fabrics.iter().for_each(|fabric| self.draw(commands, fabric)));
             Ok(())
         };
         Pass { name: "fibers", uses, record: Box::new(record) }

@@ -2,6 +2,7 @@
 
 pub mod draw_plan;
 pub mod fibers;
+mod image_kernel;
 pub mod resolve;
 pub mod targets;
 pub mod tonemap;
@@ -10,5 +11,6 @@ use crate::vulkan::VulkanError;
 
 /// The SPIR-V of a shader that the build embeds.
 fn spirv(path: &str) -> Result<&'static [u32], VulkanError> {
-    crate::shaders::get(path).ok_or_else(|| VulkanError::Misuse { what: format!("no embedded shader `{path}`") })
+    crate::shaders::get(path)
+        .ok_or_else(|| VulkanError::Misuse { what: format!("no embedded shader `{path}`") })
 }

@@ -31,12 +31,23 @@ impl Targets {
     ///
     /// # Errors
     /// A size beyond the device's limits, or no memory for it.
-    pub fn new(device: &Arc<Device>, size: [u32; 2], samples: vk::SampleCountFlags) -> Result<Self, VulkanError> {
+    pub fn new(
+        device: &Arc<Device>,
+        size: [u32; 2],
+        samples: vk::SampleCountFlags,
+    ) -> Result<Self, VulkanError> {
         use vk::ImageUsageFlags as Usage;
         let image = |name, format, samples, usage| {
             Image::new(
                 device,
-                &ImageInfo { name, format, extent: [size[0], size[1], 1], samples, usage, ..Default::default() },
+                &ImageInfo {
+                    name,
+                    format,
+                    extent: [size[0], size[1], 1],
+                    samples,
+                    usage,
+                    ..Default::default()
+                },
             )
         };
         let one = vk::SampleCountFlags::TYPE_1;
@@ -55,9 +66,9 @@ impl Targets {
             display: image("display", vk::Format::R8G8B8A8_UNORM, one, read_back)?,
         })
     }
+}
 
-    /// Work groups of 8 x 8 that cover the picture.
-    pub fn groups(&self) -> [u32; 3] {
-        [self.size[0].div_ceil(8), self.size[1].div_ceil(8), 1]
-    }
+/// Work groups of 8 x 8 that cover `size` pixels.
+pub fn groups(size: [u32; 2]) -> [u32; 3] {
+    [size[0].div_ceil(8), size[1].div_ceil(8), 1]
 }

@@ -40,7 +40,8 @@ pub fn fit_distance_occlusion(yarn: &YarnParams) -> DVec4 {
     for i in 0..DISTANCES {
         let d = f64::from(i) / f64::from(DISTANCES - 1);
         let powers = DVec4::new(1.0, d, d * d, d * d * d);
-        let outer = DMat4::from_cols(powers * powers.x, powers * powers.y, powers * powers.z, powers * powers.w);
+        let outer =
+            DMat4::from_cols(powers * powers.x, powers * powers.y, powers * powers.z, powers * powers.w);
         normal += outer;
         right += powers * radial_average(yarn, d, extinction);
     }

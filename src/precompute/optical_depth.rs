@@ -32,7 +32,8 @@ fn ply_depth_mm(yarn: &YarnParams, ply: u32, position: DVec2, direction: DVec2) 
     if end <= start {
         return 0.0;
     }
-    let density = |s: f64| fiber_density((o + s * d).length().min(1.0), yarn.density_beta, yarn.density_epsilon);
+    let density =
+        |s: f64| fiber_density((o + s * d).length().min(1.0), yarn.density_beta, yarn.density_epsilon);
     // p has a kink where the line passes the centre and bends hardest at the rim: split there.
     let turn = nearest.clamp(start, end);
     [start, turn, end]
@@ -88,7 +89,8 @@ mod tests {
         };
         let n = 400_000;
         let step = 2.0 / f64::from(n);
-        let sum: f64 = (0..n).map(|i| density_at(position + (f64::from(i) + 0.5) * step * direction) * step).sum();
+        let sum: f64 =
+            (0..n).map(|i| density_at(position + (f64::from(i) + 0.5) * step * direction) * step).sum();
         let depth = optical_depth_mm(&yarn, position, direction);
         assert!((depth / sum - 1.0).abs() < 2e-3, "{depth} vs {sum}");
         assert_eq!(optical_depth_mm(&yarn, DVec2::new(5.0, 0.0), DVec2::X), 0.0);

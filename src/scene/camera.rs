@@ -7,6 +7,8 @@ use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 const FIT_FILL: f64 = 0.94;
 /// The near plane as a share of the distance to the target.
 const NEAR_SHARE: f64 = 1e-3;
+/// Height of a model that lies flat, as a share of the smaller of its other two extents.
+const FLAT_SHARE: f64 = 0.2;
 
 /// A placed camera. World space is relative to the scene's origin, in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +35,8 @@ impl Camera {
         points: impl Iterator<Item = DVec3> + Clone,
         radius_mm: f64,
     ) -> Self {
-        let (yaw, pitch) = (table.yaw_deg.to_radians(), table.pitch_deg.to_radians());
+        let pitch_deg = table.pitch_deg.unwrap_or_else(|| if lies_flat(points.clone()) { 90.0 } else { 0.0 });
+        let (yaw, pitch) = (table.yaw_deg.to_radians(), pitch_deg.to_radians());
         let world_from_view = DMat3::from_rotation_y(yaw) * DMat3::from_rotation_x(-pitch);
         let tan_y = (0.5 * table.fov_y_deg.to_radians()).tan();
         let half_extent = DVec2::new(tan_y * f64::from(size[0]) / f64::from(size[1]), tan_y);
@@ -76,6 +79,11 @@ impl Camera {
         clip_from_view * view
     }
 
+    /// Size of a pixel at distance 1.
+    pub fn pixel_tangent(&self, size: [u32; 2]) -> f64 {
+        2.0 * self.half_extent.y / f64::from(size[1])
+    }
+
     /// Inward planes of the view: left, right, bottom, top, near; n . x + w >= 0 inside, |n| = 1.
     /// The sides are moved out by one pixel of `size`, so that jittered frames are covered.
     pub fn frustum_world(&self, size: [u32; 2]) -> [DVec4; 5] {
@@ -95,13 +103,22 @@ impl Camera {
     }
 }
 
+/// Whether the points lie like a cloth on the ground, which a level camera would see edge on.
+fn lies_flat(points: impl Iterator<Item = DVec3>) -> bool {
+    let (low, high) = bounds(points);
+    let size = high - low;
+    size.y < FLAT_SHARE * size.x.min(size.z)
+}
+
+fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+    let nothing = (DVec3::splat(f64::INFINITY), DVec3::splat(f64::NEG_INFINITY));
+    points.fold(nothing, |(low, high), p| (low.min(p), high.max(p)))
+}
+
 /// Centre of the points' box in view axes, given in world space.
 fn view_center(world_from_view: DMat3, points: impl Iterator<Item = DVec3>) -> DVec3 {
     let view_from_world = world_from_view.transpose();
-    let (low, high) = points.map(|p| view_from_world * p).fold(
-        (DVec3::splat(f64::INFINITY), DVec3::splat(f64::NEG_INFINITY)),
-        |(low, high), p| (low.min(p), high.max(p)),
-    );
+    let (low, high) = bounds(points.map(|p| view_from_world * p));
     if low.is_finite() { world_from_view * (0.5 * (low + high)) } else { DVec3::ZERO }
 }
 
@@ -131,7 +148,9 @@ mod tests {
     const SIZE: [u32; 2] = [640, 480];
 
     fn corners() -> impl Iterator<Item = DVec3> + Clone {
-        (0..8).map(|i| DVec3::new(f64::from(i & 1) * 40.0, f64::from(i >> 1 & 1) * 90.0, f64::from(i >> 2) * 9.0))
+        (0..8).map(|i| {
+            DVec3::new(f64::from(i & 1) * 40.0, f64::from(i >> 1 & 1) * 90.0, f64::from(i >> 2) * 9.0)
+        })
     }
 
     fn project(camera: &Camera, p: DVec3) -> DVec3 {
@@ -144,18 +163,31 @@ mod tests {
         let camera = Camera::new(&CameraTable::default(), SIZE, DVec3::ZERO, corners(), 1.0);
         assert!((camera.world_from_view.z_axis - DVec3::Z).length() < 1e-15);
         let target = camera.target_world;
-        assert!(project(&camera, target + DVec3::Y).y < project(&camera, target).y, "up is smaller y in Vulkan");
+        assert!(
+            project(&camera, target + DVec3::Y).y < project(&camera, target).y,
+            "up is smaller y in Vulkan"
+        );
         assert!(project(&camera, target + DVec3::X).x > 0.0);
+    }
+
+    #[test]
+    fn a_cloth_on_the_ground_is_seen_from_above_unless_told_otherwise() {
+        let flat = (0..8)
+            .map(|i| DVec3::new(f64::from(i & 1) * 40.0, f64::from(i >> 1 & 1), f64::from(i >> 2) * 60.0));
+        let camera = Camera::new(&CameraTable::default(), SIZE, DVec3::ZERO, flat.clone(), 1.0);
+        assert!((camera.world_from_view.z_axis - DVec3::Y).length() < 1e-15);
+        let level = CameraTable { pitch_deg: Some(0.0), ..Default::default() };
+        let camera = Camera::new(&level, SIZE, DVec3::ZERO, flat, 1.0);
+        assert!((camera.world_from_view.z_axis - DVec3::Z).length() < 1e-15);
     }
 
     #[test]
     fn a_fitted_model_is_whole_and_fills_the_picture() {
         for (yaw_deg, pitch_deg) in [(0.0, 0.0), (35.0, 20.0), (170.0, -60.0)] {
-            let table = CameraTable { yaw_deg, pitch_deg, ..Default::default() };
+            let table = CameraTable { yaw_deg, pitch_deg: Some(pitch_deg), ..Default::default() };
             let camera = Camera::new(&table, SIZE, DVec3::ZERO, corners(), 1.0);
-            let largest = corners()
-                .map(|p| project(&camera, p))
-                .fold(0.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs()));
+            let largest =
+                corners().map(|p| project(&camera, p)).fold(0.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs()));
             assert!(largest < FIT_FILL && largest > 0.8, "{yaw_deg} {pitch_deg}: {largest}");
         }
     }

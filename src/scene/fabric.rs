@@ -37,7 +37,12 @@ impl Fabric {
     ///
     /// # Errors
     /// Bad yarn files, unknown presets or keys, values out of range.
-    pub fn load(file: &SceneFile, table: &FabricTable, folder: &Path, scene: &str) -> Result<Self, SceneError> {
+    pub fn load(
+        file: &SceneFile,
+        table: &FabricTable,
+        folder: &Path,
+        scene: &str,
+    ) -> Result<Self, SceneError> {
         if table.model.is_empty() {
             let message = "fabric.model: expected a yarn file, found none".to_owned();
             return Err(SceneError::Value { scene: scene.to_owned(), message });
@@ -84,7 +89,8 @@ impl Fabric {
     pub fn for_tests() -> Self {
         let yarn = presets::yarn(presets::DEFAULT_YARN).unwrap();
         let points = (0..4).map(|i| DVec3::X * f64::from(i)).collect();
-        let strands = strands(&[Curve { points, closed: false }], crate::math::curve::Basis::CatmullRom, &yarn, 0);
+        let strands =
+            strands(&[Curve { points, closed: false }], crate::math::curve::Basis::CatmullRom, &yarn, 0);
         let fiber = FiberTable::default();
         Self { name: "test".into(), yarn, fiber, strands, mm_per_unit: 1.0, notes: Vec::new() }
     }
@@ -173,6 +179,9 @@ mod tests {
         let error = resolve_yarn(&table("preset = 'cashmere'"), &Table::new()).unwrap_err();
         assert!(error.contains("cashmere") && error.contains("worsted_3ply"), "{error}");
         let error = resolve_yarn(&table("ply_cuont = 3"), &Table::new()).unwrap_err();
-        assert!(error.contains("ply_cuont") && error.contains("ply_count") && !error.contains('\n'), "{error}");
+        assert!(
+            error.contains("ply_cuont") && error.contains("ply_count") && !error.contains('\n'),
+            "{error}"
+        );
     }
 }

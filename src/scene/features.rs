@@ -1,7 +1,7 @@
 //! Scene to features: the only place that leaves things out.
 
-use super::file::{DebugView, OcclusionMode, SceneFile};
 use super::Fabric;
+use super::file::{DebugView, OcclusionMode, SceneFile};
 use crate::math::curve::Basis;
 use std::collections::BTreeMap;
 

@@ -114,8 +114,8 @@ impl Default for AmbientTable {
 pub struct CameraTable {
     /// Turn about the vertical.
     pub yaw_deg: f64,
-    /// Rise above the horizon, -90 to 90.
-    pub pitch_deg: f64,
+    /// Rise above the horizon, -90 to 90. When absent 0, or 90 for a cloth that lies flat on the ground.
+    pub pitch_deg: Option<f64>,
     /// From the target; chosen so that everything is in view when absent.
     pub distance_mm: Option<f64>,
     /// What the camera looks at; the model's centre when absent.
@@ -128,7 +128,14 @@ pub struct CameraTable {
 
 impl Default for CameraTable {
     fn default() -> Self {
-        Self { yaw_deg: 0.0, pitch_deg: 0.0, distance_mm: None, target_mm: None, fov_y_deg: 35.0, fit: false }
+        Self {
+            yaw_deg: 0.0,
+            pitch_deg: None,
+            distance_mm: None,
+            target_mm: None,
+            fov_y_deg: 35.0,
+            fit: false,
+        }
     }
 }
 
@@ -174,8 +181,8 @@ pub enum OcclusionMode {
 pub struct QualityTable {
     /// Leave out pieces of yarn outside the picture.
     pub culling: bool,
-    /// Straight pieces per turn that stand for a fiber's curve, 4 to 256.
-    pub subdivisions_per_turn: f64,
+    /// How far the straight pieces of a fiber may depart from its curve, in pixels, 0.001 to 100.
+    pub subdivision_tolerance_px: f64,
     /// Most pieces a fiber is cut into over one piece of yarn, 1 to 64.
     pub max_subdivisions: u32,
     /// Patches per draw call; the device's own limit when absent.
@@ -184,7 +191,7 @@ pub struct QualityTable {
 
 impl Default for QualityTable {
     fn default() -> Self {
-        Self { culling: true, subdivisions_per_turn: 20.0, max_subdivisions: 64, patches_per_draw: None }
+        Self { culling: true, subdivision_tolerance_px: 0.2, max_subdivisions: 32, patches_per_draw: None }
     }
 }
 

@@ -49,13 +49,13 @@ impl SceneFile {
         rgb("display.background", self.display.background, 1e6)?;
         range("display.exposure_stops", self.display.exposure_stops, -30.0, 30.0)?;
         range("camera.yaw_deg", self.camera.yaw_deg, -1e6, 1e6)?;
-        range("camera.pitch_deg", self.camera.pitch_deg, -90.0, 90.0)?;
+        range("camera.pitch_deg", self.camera.pitch_deg.unwrap_or(0.0), -90.0, 90.0)?;
         range("camera.fov_y_deg", self.camera.fov_y_deg, 1.0, 170.0)?;
         range("camera.distance_mm", self.camera.distance_mm.unwrap_or(1.0), 1e-3, 1e9)?;
         for c in self.camera.target_mm.unwrap_or_default() {
             range("camera.target_mm", c, -1e9, 1e9)?;
         }
-        range("quality.subdivisions_per_turn", self.quality.subdivisions_per_turn, 4.0, 256.0)?;
+        range("quality.subdivision_tolerance_px", self.quality.subdivision_tolerance_px, 1e-3, 100.0)?;
         range("quality.max_subdivisions", f64::from(self.quality.max_subdivisions), 1.0, 64.0)?;
         range("quality.patches_per_draw", f64::from(self.quality.patches_per_draw.unwrap_or(1)), 1.0, 1e9)
     }
@@ -107,7 +107,8 @@ impl Scene {
         let name = "generated stockinette";
         file.validate().map_err(|message| SceneError::Value { scene: name.to_owned(), message })?;
         let curves = stockinette(knit)?;
-        let loaded = Loaded { curves, repairs: Vec::new(), notes: Vec::new(), format: "knit", kept_points: None };
+        let loaded =
+            Loaded { curves, repairs: Vec::new(), notes: Vec::new(), format: "knit", kept_points: None };
         let table = FabricTable { model: name.to_owned(), mm_per_unit: Some(1.0), ..Default::default() };
         let fabric = Fabric::from_loaded(&file, &table, loaded, name)?;
         file.fabric = vec![table];
@@ -136,10 +137,12 @@ fn read_table(path: &Path) -> Result<Table, SceneError> {
 
 /// Centre of the box around all fabrics.
 fn center(fabrics: &[Fabric]) -> DVec3 {
-    let (low, high) = fabrics.iter().flat_map(Fabric::hull_points).fold(
-        (DVec3::splat(f64::INFINITY), DVec3::splat(f64::NEG_INFINITY)),
-        |(low, high), p| (low.min(p), high.max(p)),
-    );
+    let (low, high) = fabrics
+        .iter()
+        .flat_map(Fabric::hull_points)
+        .fold((DVec3::splat(f64::INFINITY), DVec3::splat(f64::NEG_INFINITY)), |(low, high), p| {
+            (low.min(p), high.max(p))
+        });
     if low.is_finite() && high.is_finite() { 0.5 * (low + high) } else { DVec3::ZERO }
 }
 
@@ -159,7 +162,8 @@ mod tests {
 
     #[test]
     fn loads_with_defaults_and_overrides() {
-        let scene = load(GOOD, &["yarn.fibers_per_ply=7", "camera.yaw_deg=30", "ambient.radiance=[0,0,0]"]).unwrap();
+        let scene =
+            load(GOOD, &["yarn.fibers_per_ply=7", "camera.yaw_deg=30", "ambient.radiance=[0,0,0]"]).unwrap();
         assert_eq!(scene.fabrics[0].yarn.fibers_per_ply, 7);
         assert_eq!((scene.file.camera.yaw_deg, scene.file.camera.fov_y_deg), (30.0, 35.0));
         assert_eq!(scene.fabrics[0].strands.pieces.len(), 2);
@@ -167,7 +171,8 @@ mod tests {
 
     #[test]
     fn several_fabrics_and_one_are_both_understood() {
-        let two = "[[fabric]]\nmodel = 'yarn.obj'\n[[fabric]]\nmodel = 'yarn.obj'\n[fabric.yarn]\nply_count = 2\n";
+        let two =
+            "[[fabric]]\nmodel = 'yarn.obj'\n[[fabric]]\nmodel = 'yarn.obj'\n[fabric.yarn]\nply_count = 2\n";
         let scene = load(two, &[]).unwrap();
         assert_eq!(scene.fabrics.iter().map(|f| f.yarn.ply_count).collect::<Vec<_>>(), [3, 2]);
     }

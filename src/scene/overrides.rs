@@ -33,10 +33,7 @@ pub fn apply(scene: &mut Table, assignment: &str) -> Result<(), String> {
                 })?
             }
             other => {
-                return Err(format!(
-                    "--set {assignment}: `{key}` is a {}, not a table",
-                    other.type_str()
-                ));
+                return Err(format!("--set {assignment}: `{key}` is a {}, not a table", other.type_str()));
             }
         };
     }

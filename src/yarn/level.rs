@@ -11,12 +11,45 @@ pub fn turning_angle(a: DVec3, b: DVec3) -> f64 {
     u.cross(v).length().atan2(u.dot(v))
 }
 
-/// Pieces a fiber is cut into over one Bezier piece `b` of yarn: enough for the turns it makes around
-/// its ply and with the yarn, and for the bending of the centre line. 1 to `largest`.
-pub fn subdivisions(b: &[DVec3; 4], ply_turns: f64, fiber_turns: f64, per_turn: f64, largest: u32) -> u32 {
-    let bend = turning_angle(b[1] - b[0], b[2] - b[1]) + turning_angle(b[2] - b[1], b[3] - b[2]);
-    let turns = ply_turns.abs() + fiber_turns.abs() + bend / TAU;
-    (turns * per_turn).ceil().clamp(1.0, f64::from(largest)) as u32
+/// What decides how finely a fiber is cut: lengths in mm, rotations over the piece in turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cutting {
+    /// Turns of the plies about the yarn.
+    pub ply_turns: f64,
+    /// Turns of the fibers inside the ply's frame.
+    pub fiber_turns: f64,
+    /// Ply centre's distance from the yarn's centre.
+    pub ply_offset_mm: f64,
+    /// e_B.
+    pub ellipse_long_mm: f64,
+    /// Largest departure of a chord from the curve.
+    pub tolerance_mm: f64,
+    /// Most pieces.
+    pub largest: u32,
+}
+
+/// Pieces a fiber is cut into over the Bezier piece `b` of yarn, so that no chord departs from the
+/// curve by more than the tolerance. Over an angle a at radius r, n chords depart by r a^2 / (8 n^2);
+/// the plies' rotation about the yarn, the fibers' about the ply and the bend of the centre line add
+/// up. At least 6 pieces a turn, whose directions shading can interpolate; 1 to `largest`.
+pub fn subdivisions(b: &[DVec3; 4], cutting: &Cutting) -> u32 {
+    let legs = [b[1] - b[0], b[2] - b[1], b[3] - b[2]];
+    let bend = turning_angle(legs[0], legs[1]) + turning_angle(legs[1], legs[2]);
+    let length_mm: f64 = legs.iter().map(|leg| leg.length()).sum();
+    let ply = TAU * cutting.ply_turns;
+    let fiber = TAU * (cutting.ply_turns + cutting.fiber_turns);
+    let departure =
+        (cutting.ply_offset_mm * ply * ply + cutting.ellipse_long_mm * fiber * fiber + length_mm * bend)
+            / 8.0;
+    let smooth_pieces = (ply.abs() + fiber.abs() + bend) * (6.0 / TAU);
+    let pieces = (departure / cutting.tolerance_mm.max(1e-12)).sqrt().max(smooth_pieces);
+    pieces.ceil().clamp(1.0, f64::from(cutting.largest)) as u32
+}
+
+/// Distance from `eye` to the nearest control point of `b`, less `margin`, at least `nearest`.
+pub fn nearest_distance(b: &[DVec3; 4], eye: DVec3, margin: f64, nearest: f64) -> f64 {
+    let distance = b.iter().map(|p| p.distance(eye)).fold(f64::INFINITY, f64::min);
+    (distance - margin).max(nearest)
 }
 
 /// Whether everything within `margin` of the Bezier curve `b` lies outside one of the inward planes.
@@ -28,21 +61,71 @@ pub fn outside_frustum(b: &[DVec3; 4], margin: f64, planes: &[DVec4; 5]) -> bool
 mod tests {
     use super::*;
 
+    const CUTTING: Cutting = Cutting {
+        ply_turns: 0.0,
+        fiber_turns: 0.0,
+        ply_offset_mm: 0.4,
+        ellipse_long_mm: 0.3,
+        tolerance_mm: 0.01,
+        largest: 64,
+    };
+
     #[test]
     fn subdivisions_grow_with_twist_and_bend_and_are_bounded() {
         let straight = [DVec3::ZERO, DVec3::X, DVec3::X * 2.0, DVec3::X * 3.0];
-        assert_eq!(subdivisions(&straight, 0.0, 0.0, 24.0, 64), 1);
-        assert_eq!(subdivisions(&straight, -0.25, 0.0, 24.0, 64), 6);
-        assert_eq!(subdivisions(&straight, 100.0, 0.0, 24.0, 64), 64);
+        assert_eq!(subdivisions(&straight, &CUTTING), 1);
+        let twisted = Cutting { ply_turns: -0.25, fiber_turns: 0.25, ..CUTTING };
+        // sqrt(0.4 (pi/2)^2 / 8 / 0.01) = 3.51
+        assert_eq!(subdivisions(&straight, &twisted), 4);
+        assert_eq!(subdivisions(&straight, &Cutting { tolerance_mm: 0.0025, ..twisted }), 8);
+        assert_eq!(subdivisions(&straight, &Cutting { ply_turns: 100.0, ..CUTTING }), 64);
+        assert_eq!(
+            subdivisions(
+                &straight,
+                &Cutting { ply_turns: 0.5, fiber_turns: 0.5, tolerance_mm: 1e3, ..CUTTING }
+            ),
+            9
+        );
         let bent = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::new(0.0, 1.0, 0.0)];
-        assert_eq!(subdivisions(&bent, 0.0, 0.0, 24.0, 64), 12);
-        assert_eq!(subdivisions(&[DVec3::ZERO; 4], 0.0, 0.0, 24.0, 64), 1);
+        assert_eq!(subdivisions(&bent, &CUTTING), 11);
+        assert_eq!(subdivisions(&[DVec3::ZERO; 4], &CUTTING), 1);
+    }
+
+    #[test]
+    fn chords_of_a_helix_stay_within_the_tolerance() {
+        let cutting = Cutting { ply_turns: 0.3, fiber_turns: -0.3, ..CUTTING };
+        let straight = [0.0, 1.0, 2.0, 3.0].map(|x| DVec3::X * x);
+        let n = subdivisions(&straight, &cutting);
+        let at = |t: f64| {
+            let (s, c) = (TAU * cutting.ply_turns * t).sin_cos();
+            DVec3::new(3.0 * t, cutting.ply_offset_mm * c, cutting.ply_offset_mm * s)
+        };
+        let chord = |k: u32| (at(f64::from(k) / f64::from(n)), at(f64::from(k + 1) / f64::from(n)));
+        for k in 0..n {
+            let (a, b) = chord(k);
+            let middle = at((f64::from(k) + 0.5) / f64::from(n));
+            assert!(middle.distance(0.5 * (a + b)) <= cutting.tolerance_mm);
+        }
+    }
+
+    #[test]
+    fn distance_is_to_the_nearest_control_point() {
+        let b = [1.0, 2.0, 3.0, 4.0].map(|x| DVec3::X * x);
+        assert_eq!(nearest_distance(&b, DVec3::ZERO, 0.25, 0.1), 0.75);
+        assert_eq!(nearest_distance(&b, DVec3::X, 0.25, 0.1), 0.1);
     }
 
     #[test]
     fn culls_only_what_is_wholly_outside() {
         let planes = [DVec4::new(1.0, 0.0, 0.0, 0.0); 5];
-        let at = |x: f64| [DVec3::new(x, 0.0, 0.0), DVec3::new(x, 1.0, 0.0), DVec3::new(x, 2.0, 0.0), DVec3::new(x, 3.0, 0.0)];
+        let at = |x: f64| {
+            [
+                DVec3::new(x, 0.0, 0.0),
+                DVec3::new(x, 1.0, 0.0),
+                DVec3::new(x, 2.0, 0.0),
+                DVec3::new(x, 3.0, 0.0),
+            ]
+        };
         assert!(outside_frustum(&at(-1.1), 1.0, &planes));
         assert!(!outside_frustum(&at(-0.9), 1.0, &planes));
         let mut crossing = at(-5.0);

@@ -19,7 +19,8 @@ mod tests {
         assert!((migration_radius(0.5, 0.0, 0.8, 1.0).0 - 0.5).abs() < 1e-15);
         assert!((migration_radius(0.5, PI, 0.8, 1.0).0 - 0.4).abs() < 1e-15);
         let h = 1e-6;
-        let slope = (migration_radius(0.5, 1.0 + h, 0.8, 1.0).0 - migration_radius(0.5, 1.0 - h, 0.8, 1.0).0) / (2.0 * h);
+        let slope = (migration_radius(0.5, 1.0 + h, 0.8, 1.0).0 - migration_radius(0.5, 1.0 - h, 0.8, 1.0).0)
+            / (2.0 * h);
         assert!((migration_radius(0.5, 1.0, 0.8, 1.0).1 - slope).abs() < 1e-9);
     }
 }

@@ -175,7 +175,11 @@ mod tests {
         let points = (0..60)
             .map(|i| {
                 let u = TAU * f64::from(i) / 60.0;
-                DVec3::new((10.0 + (4.0 * u).cos()) * u.cos(), (10.0 + (4.0 * u).cos()) * u.sin(), (7.0 * u).sin())
+                DVec3::new(
+                    (10.0 + (4.0 * u).cos()) * u.cos(),
+                    (10.0 + (4.0 * u).cos()) * u.sin(),
+                    (7.0 * u).sin(),
+                )
             })
             .collect();
         Curve { points, closed: true }

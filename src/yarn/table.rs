@@ -61,7 +61,9 @@ mod tests {
         let ring = |r: f64| r * fiber_density(r, yarn.density_beta, yarn.density_epsilon);
         let steps = 2000;
         let mass = |bin: usize| -> f64 {
-            (0..steps).map(|i| ring((bin as f64 + (f64::from(i) + 0.5) / f64::from(steps)) / bins as f64)).sum()
+            (0..steps)
+                .map(|i| ring((bin as f64 + (f64::from(i) + 0.5) / f64::from(steps)) / bins as f64))
+                .sum()
         };
         let masses: Vec<f64> = (0..bins).map(mass).collect();
         let total: f64 = masses.iter().sum();
