@@ -6,7 +6,6 @@ pub mod upload;
 
 use crate::gpu_types::Statistics;
 use crate::graph::{Graph, Pass};
-use crate::io::picture::{DisplayImage, LinearImage};
 use crate::passes::draw_plan::DrawPlan;
 use crate::passes::fibers::FibersPass;
 use crate::passes::resolve::ResolvePass;
@@ -35,12 +34,14 @@ pub struct Request {
     pub profile: bool,
 }
 
-/// A finished picture.
+/// A finished picture, row 0 on top.
 pub struct Picture {
-    /// Linear radiance; alpha is the share of samples that hit yarn.
-    pub linear: LinearImage,
-    /// As shown on a display, over the scene's background.
-    pub display: DisplayImage,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Linear radiance, rgb; alpha is the share of samples that hit yarn.
+    pub linear: Vec<[f32; 4]>,
+    /// sRGB as shown on a display, over the scene's background.
+    pub display: Vec<[u8; 4]>,
 }
 
 /// Everything a scene needs on the device.
@@ -153,12 +154,10 @@ impl Renderer {
     }
 
     fn read_picture(&self) -> Result<Picture, VulkanError> {
-        let [width, height] = self.request.size;
-        let linear = self.targets.picture.read(ImageState::STORAGE_COMPUTE)?;
-        let display = self.targets.display.read(ImageState::STORAGE_COMPUTE)?;
         Ok(Picture {
-            linear: LinearImage { width, height, pixels: linear },
-            display: DisplayImage { width, height, pixels: display },
+            size: self.request.size,
+            linear: self.targets.picture.read(ImageState::STORAGE_COMPUTE)?,
+            display: self.targets.display.read(ImageState::STORAGE_COMPUTE)?,
         })
     }
 }

@@ -25,8 +25,8 @@ pub struct Segment {
     pub curve: u32,
     /// Whole periods of the fibers' radius before this piece.
     pub migration_period: i32,
-    /// Not used.
-    pub padding: u32,
+    /// Periods of a closed curve; 0 on an open one.
+    pub migration_period_count: u32,
     /// Rotation of the plies at the start, in turns.
     pub ply_turns: f32,
     /// Twist of the fibers inside the ply's frame, in turns.
@@ -85,8 +85,48 @@ pub struct Yarn {
     pub max_subdivisions: u32,
     /// Pieces of yarn.
     pub segment_count: u32,
+    /// Of the periods' types.
+    pub seed: u32,
+    /// Probability that a period is a loop.
+    pub loop_probability: f32,
+    /// Largest R of a loop.
+    pub loop_radius_mean: f32,
+    /// Its deviation.
+    pub loop_radius_sd: f32,
+    /// Probability that a period holds a hair.
+    pub hair_probability: f32,
+    /// R where a hair leaves the ply.
+    pub hair_start_mean: f32,
+    /// Its deviation.
+    pub hair_start_sd: f32,
+    /// How much farther out its tip is.
+    pub hair_gain_mean: f32,
+    /// Its deviation.
+    pub hair_gain_sd: f32,
+    /// Its length as a share of the period.
+    pub hair_share_mean: f32,
+    /// Its deviation.
+    pub hair_share_sd: f32,
+    /// Radians around the ply from root to tip.
+    pub hair_angle_mean: f32,
+    /// Its deviation.
+    pub hair_angle_sd: f32,
+    /// Above 0: turns around the ply per period, in place of the angle.
+    pub hair_turns_per_period: f32,
+    /// Turns of the fiber itself per period.
+    pub fiber_turns_per_period: f32,
+    /// Share of the hair's length over which it tapers to a point.
+    pub hair_taper: f32,
+    /// Parts of a migration for each of which loops and hairs are drawn.
+    pub periods_per_migration: u32,
     /// Not used.
     pub padding: u32,
+    /// Not used.
+    pub padding2: u32,
+    /// Not used.
+    pub padding3: u32,
+    /// Distance from the yarn's centre that nothing exceeds.
+    pub reach: f32,
     /// Visibility as a cubic of (distance from the centre / outer radius).
     pub occlusion: [f32; 4],
     /// k_d, rgb.

@@ -10,7 +10,7 @@ layout(location = 0) in vec3 fragment_position;
 layout(location = 1) in vec3 fragment_tangent;
 layout(location = 2) in vec4 fragment_side;
 layout(location = 3) in float fragment_distance;
-layout(location = 4) flat in uint fragment_fiber;
+layout(location = 4) flat in uvec2 fragment_fiber;  // index, kind
 
 layout(location = 0) out vec4 radiance;
 
@@ -19,6 +19,10 @@ const uint VIEW_NORMAL = 1;
 const uint VIEW_TANGENT = 2;
 const uint VIEW_OCCLUSION = 3;
 const uint VIEW_PLY = 4;
+const uint VIEW_KIND = 5;
+
+// Wu & Yuksel 2019, Fig. 4: migration dark, loops green, hairs red.
+const vec3 KIND_COLORS[3] = vec3[3](vec3(0.08), vec3(0.1, 0.75, 0.15), vec3(0.85, 0.08, 0.05));
 
 vec3 shade(vec3 tangent, vec3 normal, vec3 to_eye, float visibility) {
     vec3 sum = vec3(0.0);
@@ -53,7 +57,8 @@ void main() {
         case VIEW_NORMAL: color = 0.5 + 0.5 * normal; break;
         case VIEW_TANGENT: color = 0.5 + 0.5 * tangent; break;
         case VIEW_OCCLUSION: color = vec3(visibility); break;
-        case VIEW_PLY: color = ply_color(fibers[fragment_fiber].ply); break;
+        case VIEW_PLY: color = ply_color(fibers[fragment_fiber.x].ply); break;
+        case VIEW_KIND: color = KIND_COLORS[min(fragment_fiber.y, 2u)] * (0.35 + 0.65 * max(0.0, dot(normal, to_eye))); break;
         default: color = shade(tangent, normal, to_eye, visibility); break;
     }
     radiance = vec4(color, 1.0);

@@ -3,32 +3,39 @@
 #extension GL_GOOGLE_include_directive : require
 #include "bindings.glsl"
 #include "../lib/strip.glsl"
+#include "../yarn/breaks.glsl"
 
 layout(lines) in;
 layout(triangle_strip, max_vertices = 4) out;
 
 layout(location = 0) in vec3 position_world[];
-layout(location = 1) in vec3 tangent_world[];
+layout(location = 1) in vec4 tangent_world[];
 layout(location = 2) in float center_distance[];
 layout(location = 3) in uint fiber_index[];
+layout(location = 4) in ivec4 joining[];
 
 layout(location = 0) out vec3 fragment_position;
 layout(location = 1) out vec3 fragment_tangent;
 layout(location = 2) out vec4 fragment_side;      // xyz: side, w: across, -1..1
 layout(location = 3) out float fragment_distance; // from the yarn's centre, as a share of outer_radius
-layout(location = 4) flat out uint fragment_fiber;
+layout(location = 4) flat out uvec2 fragment_fiber;  // index, kind
 
 void main() {
+    // Which end of the line comes first along the yarn is the driver's choice.
+    int first = joining[0].w < joining[1].w ? 0 : 1;
+    if (FLYAWAYS && is_broken(joining[first].y, joining[1 - first].x)) {
+        return;
+    }
     for (int end = 0; end < 2; ++end) {
         vec3 to_eye = direction_or(frame.eye_world.xyz - position_world[end], vec3(0.0, 0.0, 1.0));
-        vec3 side = strip_side(tangent_world[end], to_eye);
+        vec3 side = strip_side(tangent_world[end].xyz, to_eye);
         for (int edge = -1; edge <= 1; edge += 2) {
-            vec3 corner = position_world[end] + float(edge) * yarn.fiber_radius * side;
+            vec3 corner = position_world[end] + float(edge) * tangent_world[end].w * yarn.fiber_radius * side;
             fragment_position = corner;
-            fragment_tangent = tangent_world[end];
+            fragment_tangent = tangent_world[end].xyz;
             fragment_side = vec4(side, float(edge));
             fragment_distance = center_distance[end] / yarn.outer_radius;
-            fragment_fiber = fiber_index[end];
+            fragment_fiber = uvec2(fiber_index[end], uint(joining[first].z));
             gl_Position = frame.clip_from_world * vec4(corner, 1.0);
             EmitVertex();
         }

@@ -12,6 +12,7 @@ layout(location = 1) in uint first_fiber[];
 layout(location = 0) patch out uint patch_segment;
 layout(location = 1) patch out uint patch_first_fiber;
 layout(location = 2) patch out uint patch_fibers;
+layout(location = 3) patch out uint patch_pieces;
 
 void count(bool culled, uint fiber_segments) {
     if (first_fiber[0] == 0) {
@@ -31,16 +32,20 @@ void main() {
     Segment segment = segments[segment_index[0]];
     vec3 b[4];
     fetch_bezier(segment, b);
-    bool culled = CULLING && outside_frustum(b, yarn.outer_radius + yarn.fiber_radius, frame.frustum_world);
+    bool culled = CULLING && outside_frustum(b, yarn.reach + yarn.fiber_radius, frame.frustum_world);
 
     uint fiber_count = min(FIBERS_PER_PATCH, yarn.fiber_count - first_fiber[0]);
-    float distance_mm = nearest_distance(b, frame.eye_world.xyz, yarn.outer_radius, frame.near_mm);
+    float distance_mm = nearest_distance(b, frame.eye_world.xyz, yarn.reach, frame.near_mm);
     uint pieces = subdivisions(b, segment.ply_turns_delta, segment.fiber_turns_delta, yarn.ply_offset,
                                yarn.ellipse_long, frame.tolerance_per_mm * distance_mm, yarn.max_subdivisions);
+    if (FLYAWAYS) {
+        pieces = period_pieces(pieces, period_rate(segment, yarn), yarn.max_subdivisions);
+    }
     patch_segment = segment_index[0];
     patch_first_fiber = first_fiber[0];
-    // The evaluation stage sees levels before clamping, so it gets the count itself.
+    // The evaluation stage sees levels before clamping, so it gets the counts themselves.
     patch_fibers = fiber_count;
+    patch_pieces = pieces;
     gl_TessLevelOuter[0] = culled ? 0.0 : float(fiber_count);
     gl_TessLevelOuter[1] = culled ? 0.0 : float(pieces);
     if (STATISTICS) {

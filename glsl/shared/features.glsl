@@ -9,6 +9,7 @@ layout(constant_id = 3) const bool STATISTICS = false;
 layout(constant_id = 4) const bool SPECULAR = true;
 layout(constant_id = 5) const bool AMBIENT = true;
 layout(constant_id = 6) const bool LIGHT = true;
-layout(constant_id = 7) const uint DEBUG_VIEW = 0;       // src/scene/features.rs, `DebugView`
+layout(constant_id = 7) const uint DEBUG_VIEW = 0;       // src/scene/file.rs, `DebugView`
+layout(constant_id = 8) const bool FLYAWAYS = true;      // loops or hairs exist
 
 #endif

@@ -14,7 +14,7 @@ struct Segment {
     uint first_point;       // of four consecutive control points
     uint curve;
     int migration_period;   // whole periods of R before this piece
-    uint padding;
+    uint migration_period_count; // periods of a closed curve; 0 on an open one
     float ply_turns;        // ply rotation about the yarn, in turns
     float fiber_turns;      // fiber twist inside the ply frame, in turns
     float migration_turns;  // phase of R, in turns
@@ -46,7 +46,27 @@ struct Yarn {
     float outer_radius;
     uint max_subdivisions;
     uint segment_count;
+    uint seed;
+    float loop_probability; // that a period is a loop
+    float loop_radius_mean; // largest R of a loop
+    float loop_radius_sd;
+    float hair_probability; // that a period holds a hair
+    float hair_start_mean;  // R where a hair leaves the ply
+    float hair_start_sd;
+    float hair_gain_mean;   // how much farther out its tip is
+    float hair_gain_sd;
+    float hair_share_mean;  // its length as a share of the period
+    float hair_share_sd;
+    float hair_angle_mean;  // radians around the ply from root to tip
+    float hair_angle_sd;
+    float hair_turns_per_period;  // above 0: takes the place of the angle
+    float fiber_turns_per_period; // 1 / s
+    float hair_taper;       // share of the hair's length over which it tapers to a point
+    uint periods_per_migration; // parts of a migration for each of which loops and hairs are drawn
     uint padding;
+    uint padding2;
+    uint padding3;
+    float reach;            // of anything, hairs included, from the yarn's centre
     vec4 occlusion;         // visibility as a cubic of (distance from the centre / outer_radius)
     vec4 diffuse;           // k_d, rgb
     vec4 specular;          // k_s, rgb; a: beta, radians

@@ -17,7 +17,8 @@ void main() {
     if (i >= queries.length()) {
         return;
     }
-    FiberPoint f = fetch_fiber_point(queries[i].segment, queries[i].fiber, queries[i].t);
+    Period period;
+    FiberPoint f = fetch_fiber_at(queries[i].segment, queries[i].fiber, queries[i].t, period);
     answers[i].position = vec4(f.position, f.center_distance);
-    answers[i].tangent = vec4(f.tangent, 0.0);
+    answers[i].tangent = vec4(f.tangent, float(period.kind));
 }

@@ -3,6 +3,7 @@
 #define WORSTED_FETCH
 
 #include "fiber.glsl"
+#include "breaks.glsl"
 
 // First and last control point of a piece that lie on (or next to) its knots carry its normals.
 const uint KNOT_START = BASIS == BASIS_BEZIER ? 0 : 1;
@@ -16,15 +17,38 @@ void fetch_bezier(Segment segment, out vec3 b[4]) {
     bezier_from_basis(b, BASIS);
 }
 
-// The fiber with this index in the yarn's table, at t of the piece.
-FiberPoint fetch_fiber_point(uint segment_index, uint fiber_index, float t) {
-    Segment segment = segments[segment_index];
+// The fiber with this index in the yarn's table, at t of the piece, in the given shape.
+FiberPoint fetch_fiber_point(Segment segment, Fiber fiber, float t, FiberShape shape) {
     vec3 b[4];
     fetch_bezier(segment, b);
     vec3 normal_start = unit_from_octahedral(control_points[segment.first_point + KNOT_START].normal_octahedral);
     vec3 normal_end = unit_from_octahedral(control_points[segment.first_point + KNOT_END].normal_octahedral);
     YarnPoint yarn_at = yarn_point(b, normal_start, normal_end, t);
-    return fiber_point(yarn_at, twist_at(segment, t), yarn, fibers[fiber_index]);
+    return fiber_point(yarn_at, twist_at(segment, t), yarn, fiber, shape);
+}
+
+// The fiber at exactly t, whatever it is there.
+FiberPoint fetch_fiber_at(uint segment_index, uint fiber_index, float t, out Period period) {
+    Segment segment = segments[segment_index];
+    Fiber fiber = fibers[fiber_index];
+    if (!FLYAWAYS) {
+        period.kind = KIND_MIGRATION;
+        Twist twist = twist_at(segment, t);
+        return fetch_fiber_point(segment, fiber, t, migration_shape(fiber, twist.migration, twist.migration_rate, yarn));
+    }
+    float u = period_turns(segment, fiber, t, yarn);
+    period = draw_period(segment, fiber_index, period_base(segment, yarn) + int(floor(u)), yarn);
+    FiberShape shape = period_shape(fiber, period, fract(u), period_rate(segment, yarn), yarn);
+    return fetch_fiber_point(segment, fiber, t, shape);
+}
+
+// A vertex of the fiber drawn in `pieces` steps, with what joins it to its neighbours.
+FiberPoint fetch_fiber_vertex(uint segment_index, uint fiber_index, float t, uint pieces, out StrandVertex vertex) {
+    Segment segment = segments[segment_index];
+    Fiber fiber = fibers[fiber_index];
+    vertex = strand_vertex(segment, fiber, fiber_index, t, pieces, yarn);
+    FiberShape shape = period_shape(fiber, vertex.period, vertex.x, period_rate(segment, yarn), yarn);
+    return fetch_fiber_point(segment, fiber, vertex.t, shape);
 }
 
 #endif

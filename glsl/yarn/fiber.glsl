@@ -6,7 +6,7 @@
 #include "../shared/layouts.glsl"
 #include "../lib/curve.glsl"
 #include "../lib/frame.glsl"
-#include "migration.glsl"
+#include "period.glsl"
 
 // Rotations at one point of a yarn, and what the whole piece adds to them; radians.
 struct Twist {
@@ -33,6 +33,7 @@ struct FiberPoint {
     vec3 position;
     vec3 tangent;          // unit, along the fiber
     float center_distance; // from the yarn's centre line, in the cross-section
+    float width;           // share of the fiber's full width
 };
 
 // Rotations at t of a piece. Reduced before the multiplication by 2 pi, so that no angle is large.
@@ -75,20 +76,18 @@ YarnPoint yarn_point(vec3 b[4], vec3 normal_start, vec3 normal_end, float t) {
 }
 
 // Wu & Yuksel 2019, Sec. 3.1: ply centre, then the fiber inside the ply's rotating elliptical frame.
-FiberPoint fiber_point(YarnPoint yarn_at, Twist twist, Yarn yarn, Fiber fiber) {
+FiberPoint fiber_point(YarnPoint yarn_at, Twist twist, Yarn yarn, Fiber fiber, FiberShape shape) {
     float ply_angle = TWO_PI * float(fiber.ply) / float(yarn.ply_count) + twist.ply;
-    float fiber_angle = fiber.angle + twist.fiber;
+    float fiber_angle = fiber.angle + twist.fiber + shape.angle;
+    float fiber_rate = twist.fiber_rate + shape.angle_rate;
     float cos_fiber = cos(fiber_angle);
     float sin_fiber = sin(fiber_angle);
-    vec2 r = migration_radius(fiber.radius, fiber.migration_phase + twist.migration,
-                              yarn.migration_min, yarn.migration_max);
-    float radius_rate = r.y * twist.migration_rate;
 
     // Offsets in the ply's frame: x away from the yarn's centre, y around it.
-    float x = r.x * cos_fiber * yarn.ellipse_short;
-    float y = r.x * sin_fiber * yarn.ellipse_long;
-    float x_rate = (radius_rate * cos_fiber - r.x * sin_fiber * twist.fiber_rate) * yarn.ellipse_short;
-    float y_rate = (radius_rate * sin_fiber + r.x * cos_fiber * twist.fiber_rate) * yarn.ellipse_long;
+    float x = shape.radius * cos_fiber * yarn.ellipse_short;
+    float y = shape.radius * sin_fiber * yarn.ellipse_long;
+    float x_rate = (shape.radius_rate * cos_fiber - shape.radius * sin_fiber * fiber_rate) * yarn.ellipse_short;
+    float y_rate = (shape.radius_rate * sin_fiber + shape.radius * cos_fiber * fiber_rate) * yarn.ellipse_long;
 
     vec3 binormal = cross(yarn_at.tangent, yarn_at.normal);
     vec3 normal_ply = cos(ply_angle) * yarn_at.normal + sin(ply_angle) * binormal;
@@ -101,6 +100,7 @@ FiberPoint fiber_point(YarnPoint yarn_at, Twist twist, Yarn yarn, Fiber fiber) {
     f.ply_center = yarn_at.center + yarn.ply_offset * normal_ply;
     f.position = yarn_at.center + from_center;
     f.center_distance = length(vec2(away, y));
+    f.width = shape.width;
     // On the inside of a bend the fiber advances less than the centre line.
     float bend_speed = dot(from_center, yarn_at.bend) / max(yarn_at.speed, 1e-12);
     vec3 velocity = (yarn_at.speed - bend_speed) * yarn_at.tangent

@@ -29,6 +29,12 @@ uint subdivisions(vec3 b[4], float ply_turns, float fiber_turns, float ply_offse
     return uint(clamp(ceil(pieces), 1.0, float(largest)));
 }
 
+// At least `pieces`, and enough that no two vertices are more than a quarter of a period apart: a step
+// must not pass over a whole period.
+uint period_pieces(uint pieces, float periods, uint largest) {
+    return uint(clamp(ceil(4.0 * abs(periods)), float(pieces), float(largest)));
+}
+
 // Distance from `eye` to the nearest control point of `b`, less `margin`, at least `nearest`.
 float nearest_distance(vec3 b[4], vec3 eye, float margin, float nearest) {
     float squared = dot(b[0] - eye, b[0] - eye);

@@ -70,7 +70,7 @@ fn draw_caps_agree(device: &Arc<Device>) -> Result<(), Error> {
         let sampling = Sampling::new(1).map_err(Error::Failed)?;
         let request = Request { size: [160, 120], sampling, statistics: false, profile: false };
         let mut renderer = Renderer::new(device, scene, request)?;
-        Ok(renderer.render(&|_| ())?.linear.pixels)
+        Ok(renderer.render(&|_| ())?.linear)
     };
     let (single, large) = (draw(1)?, draw(1_000_000)?);
     let differing = single.iter().zip(&large).filter(|(a, b)| a != b).count();

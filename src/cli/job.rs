@@ -1,7 +1,7 @@
 //! What was typed, resolved into what will run.
 
 use super::args::{Common, Render};
-use super::output::{Output, PictureFormat};
+use super::output::Output;
 use crate::error::Error;
 use crate::frame::Request;
 use crate::scene::Scene;
@@ -53,11 +53,6 @@ impl RenderJob {
         let explain = args.explain;
         let (repeat, stats) = (args.repeat, args.stats.clone());
         Ok(Self { scene, request, outputs, repeat, stats, explain, common: common.clone() })
-    }
-
-    /// Whether any output shows the picture as displayed.
-    pub fn wants(&self, format: PictureFormat) -> bool {
-        self.outputs.iter().any(|output| output.format == format)
     }
 }
 

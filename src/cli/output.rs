@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::frame::Picture;
 use crate::io::error::FileError;
-use crate::io::picture::{write_exr, write_png};
+use crate::io::picture::{DisplayImage, LinearImage, write_exr, write_png};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -48,9 +48,16 @@ impl Output {
     /// # Errors
     /// What the file system says.
     pub fn write(&self, picture: &Picture) -> Result<(), Error> {
+        let [width, height] = picture.size;
         match self.format {
-            PictureFormat::Png => write_png(&self.path, &picture.display)?,
-            PictureFormat::Exr => write_exr(&self.path, &picture.linear)?,
+            PictureFormat::Png => {
+                let pixels = picture.display.clone();
+                write_png(&self.path, &DisplayImage { width, height, pixels })?;
+            }
+            PictureFormat::Exr => {
+                let pixels = picture.linear.clone();
+                write_exr(&self.path, &LinearImage { width, height, pixels })?;
+            }
         }
         Ok(())
     }

@@ -2,7 +2,6 @@
 
 use super::{Milliseconds, Request, ms};
 use crate::gpu_types::Statistics;
-use crate::io::picture::LinearImage;
 use crate::scene::Scene;
 use crate::scene::features::Features;
 use crate::vulkan::Device;
@@ -137,12 +136,12 @@ impl Stats {
         }
     }
 
-    /// Counts what must not be in a picture.
-    pub fn inspect(&mut self, picture: &LinearImage) {
+    /// Counts what must not be in a picture's linear pixels.
+    pub fn inspect(&mut self, pixels: &[[f32; 4]]) {
         let bad = |p: &&[f32; 4]| !p.iter().all(|c| c.is_finite());
-        let clamped = |p: &&[f32; 4]| p.iter().any(|&c| c < 0.0 || c >= HALF_MAX);
-        self.nan_pixels = picture.pixels.iter().filter(bad).count() as u64;
-        self.clamped_pixels = picture.pixels.iter().filter(clamped).count() as u64;
+        let clamped = |p: &&[f32; 4]| p.iter().any(|c| !(0.0..HALF_MAX).contains(c));
+        self.nan_pixels = pixels.iter().filter(bad).count() as u64;
+        self.clamped_pixels = pixels.iter().filter(clamped).count() as u64;
     }
 
     /// Takes note of the device's memory.
@@ -166,7 +165,7 @@ mod tests {
             [1.0; 4],
         ];
         let mut stats = Stats::for_tests();
-        stats.inspect(&LinearImage { width: 6, height: 1, pixels });
+        stats.inspect(&pixels);
         assert_eq!((stats.nan_pixels, stats.clamped_pixels), (2, 3));
     }
 

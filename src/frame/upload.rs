@@ -9,7 +9,10 @@ use crate::scene::features::Features;
 use crate::scene::file::QualityTable;
 use crate::scene::{Fabric, Scene};
 use crate::vulkan::{Buffer, Device, VulkanError, vk};
+use crate::yarn::fetch::period_seed;
 use crate::yarn::fiber::Turns;
+use crate::yarn::flyaway::Flyaways;
+use crate::yarn::params::Spread;
 use crate::yarn::strand::Piece;
 use crate::yarn::table::fiber_table;
 use glam::{DMat4, DVec2, DVec3, DVec4};
@@ -27,14 +30,14 @@ pub fn control_points(fabric: &Fabric, origin_mm: DVec3) -> Vec<ControlPoint> {
 }
 
 /// One piece with its turns reduced in f64.
-fn segment(piece: &Piece) -> Segment {
+fn segment(piece: &Piece, migration_period_count: u32) -> Segment {
     let reduced = |turns: Turns| turns.start.rem_euclid(1.0) as f32;
     let turns = &piece.turns;
     Segment {
         first_point: piece.first_point as u32,
         curve: piece.curve as u32,
         migration_period: turns.migration.start.floor() as i32,
-        padding: 0,
+        migration_period_count,
         ply_turns: reduced(turns.ply),
         fiber_turns: reduced(turns.fiber),
         migration_turns: reduced(turns.migration),
@@ -48,7 +51,8 @@ fn segment(piece: &Piece) -> Segment {
 
 /// All pieces of a fabric.
 pub fn segments(fabric: &Fabric) -> Vec<Segment> {
-    fabric.strands.pieces.iter().map(segment).collect()
+    let strands = &fabric.strands;
+    strands.pieces.iter().map(|piece| segment(piece, strands.period_counts[piece.curve])).collect()
 }
 
 /// The fibers of a fabric's cross-section.
@@ -63,8 +67,15 @@ pub fn fibers(fabric: &Fabric, seed: u64) -> Vec<Fiber> {
 }
 
 /// What all yarns of a fabric share.
-pub fn yarn(fabric: &Fabric, quality: &QualityTable, features: &Features) -> Yarn {
+pub fn yarn(fabric: &Fabric, quality: &QualityTable, features: &Features, seed: u64) -> Yarn {
     let params = &fabric.yarn;
+    let flyaways = Flyaways::new(params);
+    let spread = |spread: Spread| (spread.mean as f32, spread.deviation as f32);
+    let (loop_radius_mean, loop_radius_sd) = spread(flyaways.loop_radius);
+    let (hair_start_mean, hair_start_sd) = spread(flyaways.hair_start);
+    let (hair_gain_mean, hair_gain_sd) = spread(flyaways.hair_gain);
+    let (hair_share_mean, hair_share_sd) = spread(flyaways.hair_share);
+    let (hair_angle_mean, hair_angle_sd) = spread(flyaways.hair_angle);
     let occlusion = if features.distance_occlusion { fit_distance_occlusion(params) } else { DVec4::X };
     let [k_r, k_g, k_b] = fabric.fiber.specular;
     let beta = fabric.fiber.specular_width_deg.to_radians();
@@ -80,7 +91,27 @@ pub fn yarn(fabric: &Fabric, quality: &QualityTable, features: &Features) -> Yar
         outer_radius: params.outer_radius_mm() as f32,
         max_subdivisions: quality.max_subdivisions,
         segment_count: fabric.strands.pieces.len() as u32,
+        seed: period_seed(seed),
+        loop_probability: flyaways.loop_probability as f32,
+        loop_radius_mean,
+        loop_radius_sd,
+        hair_probability: flyaways.hair_probability as f32,
+        hair_start_mean,
+        hair_start_sd,
+        hair_gain_mean,
+        hair_gain_sd,
+        hair_share_mean,
+        hair_share_sd,
+        hair_angle_mean,
+        hair_angle_sd,
+        hair_turns_per_period: flyaways.hair_turns_per_period as f32,
+        fiber_turns_per_period: flyaways.fiber_turns_per_period as f32,
+        hair_taper: flyaways.hair_taper as f32,
+        periods_per_migration: flyaways.periods_per_migration,
         padding: 0,
+        padding2: 0,
+        padding3: 0,
+        reach: flyaways.reach_mm as f32,
         occlusion: occlusion.as_vec4().to_array(),
         diffuse: rgb(fabric.fiber.diffuse),
         specular: DVec4::new(k_r, k_g, k_b, beta).as_vec4().to_array(),
@@ -137,7 +168,7 @@ pub fn fabric_buffers(
             device,
             "yarn parameters",
             usage,
-            &[yarn(fabric, &scene.file.quality, features)],
+            &[yarn(fabric, &scene.file.quality, features, scene.file.seed)],
         )?,
     })
 }

@@ -4,6 +4,7 @@ pub mod angle;
 pub mod color;
 pub mod curve;
 pub mod frame;
+pub mod hash;
 pub mod quadrature;
 pub mod rng;
 pub mod strip;

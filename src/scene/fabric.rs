@@ -2,17 +2,18 @@
 
 use super::SceneError;
 use super::file::{FabricTable, FiberTable, SceneFile};
+use super::yarn_table::resolve_yarn;
 use crate::io::curves::UpAxis;
 use crate::io::repair::summarize_repairs;
 use crate::io::yarn_file::{Loaded, load_yarn_file};
 use crate::math::curve::Curve;
 use crate::yarn::contact::estimate_contact_radius;
 use crate::yarn::params::YarnParams;
+#[cfg(test)]
 use crate::yarn::presets;
 use crate::yarn::strand::{Strands, strands};
 use glam::DVec3;
 use std::path::Path;
-use toml::{Table, Value};
 
 /// A loaded fabric.
 #[derive(Clone, Debug)]
@@ -61,8 +62,8 @@ impl Fabric {
         scene: &str,
     ) -> Result<Self, SceneError> {
         let value = |message: String| SceneError::Value { scene: scene.to_owned(), message };
-        let (preset, yarn) = resolve_yarn(&file.yarn, &table.yarn).map_err(value)?;
-        yarn.validate().map_err(|error| SceneError::Param { scene: scene.to_owned(), error })?;
+        let (preset, yarn) =
+            resolve_yarn(&file.yarn, &table.yarn).map_err(|error| value(error.to_string()))?;
         let fiber = table.fiber.clone().unwrap_or_else(|| file.fiber.clone());
 
         let mut notes = loaded.notes.clone();
@@ -94,35 +95,6 @@ impl Fabric {
         let fiber = FiberTable::default();
         Self { name: "test".into(), yarn, fiber, strands, mm_per_unit: 1.0, notes: Vec::new() }
     }
-}
-
-/// The preset and the parameters after the scene's and the fabric's overrides.
-fn resolve_yarn(scene: &Table, fabric: &Table) -> Result<(YarnParams, YarnParams), String> {
-    let name = match fabric.get("preset").or(scene.get("preset")) {
-        None => presets::DEFAULT_YARN,
-        Some(Value::String(name)) => name,
-        Some(other) => return Err(format!("yarn.preset: expected a name, found {other}")),
-    };
-    let preset = presets::yarn(name).ok_or_else(|| {
-        let known: Vec<_> = presets::yarn_names().collect();
-        format!("yarn.preset = \"{name}\": expected one of {}", known.join(", "))
-    })?;
-    let mut table = Table::try_from(&preset).map_err(|e| format!("yarn: {e}"))?;
-    for (key, value) in scene.iter().chain(fabric).filter(|(key, _)| *key != "preset") {
-        // TOML has no null; a pitch may be written as "untwisted".
-        if value.as_str() == Some("untwisted") {
-            table.remove(key);
-        } else {
-            table.insert(key.clone(), value.clone());
-        }
-    }
-    let yarn = table.try_into().map_err(|e| format!("yarn: {}", one_line(&e)))?;
-    Ok((preset, yarn))
-}
-
-/// The first line of a TOML error's own message.
-pub fn one_line(error: &toml::de::Error) -> String {
-    error.message().lines().next().unwrap_or("not valid TOML").to_owned()
 }
 
 /// Millimetres per unit so that the file's yarns touch at the preset's outer radius. The preset's, not
@@ -158,30 +130,4 @@ fn world_curves(loaded: &Loaded, mm_per_unit: f64) -> Vec<Curve> {
         closed: curve.closed,
     };
     loaded.curves.curves.iter().map(place).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn overrides_apply_in_order_and_a_pitch_can_be_taken_away() {
-        let scene: Table = toml::from_str("ply_pitch_mm = 4.0\nfibers_per_ply = 10").unwrap();
-        let fabric: Table = toml::from_str("fibers_per_ply = 20\nfiber_pitch_mm = 'untwisted'").unwrap();
-        let (preset, yarn) = resolve_yarn(&scene, &fabric).unwrap();
-        assert_eq!((yarn.ply_pitch_mm, yarn.fibers_per_ply, yarn.fiber_pitch_mm), (Some(4.0), 20, None));
-        assert_eq!(preset, presets::yarn(presets::DEFAULT_YARN).unwrap());
-    }
-
-    #[test]
-    fn unknown_names_are_errors_that_name_what_is_known() {
-        let table = |text: &str| toml::from_str::<Table>(text).unwrap();
-        let error = resolve_yarn(&table("preset = 'cashmere'"), &Table::new()).unwrap_err();
-        assert!(error.contains("cashmere") && error.contains("worsted_3ply"), "{error}");
-        let error = resolve_yarn(&table("ply_cuont = 3"), &Table::new()).unwrap_err();
-        assert!(
-            error.contains("ply_cuont") && error.contains("ply_count") && !error.contains('\n'),
-            "{error}"
-        );
-    }
 }

@@ -3,6 +3,7 @@
 use super::Fabric;
 use super::file::{DebugView, OcclusionMode, SceneFile};
 use crate::math::curve::Basis;
+use crate::yarn::flyaway::Flyaways;
 use std::collections::BTreeMap;
 
 /// What drawing one fabric needs. Pipelines are specialised by it, so that what is left out costs
@@ -25,6 +26,8 @@ pub struct Features {
     pub light: bool,
     /// What fibers are coloured by.
     pub debug_view: DebugView,
+    /// Loops or hairs exist.
+    pub flyaways: bool,
 }
 
 /// Specialization constants of `glsl/shared/features.glsl`.
@@ -40,6 +43,7 @@ pub enum SpecializationId {
     Ambient = 5,
     Light = 6,
     DebugView = 7,
+    Flyaways = 8,
 }
 
 impl Features {
@@ -59,11 +63,12 @@ impl Features {
             ambient,
             light,
             debug_view: file.debug.view,
+            flyaways: Flyaways::new(&fabric.yarn).exist(),
         }
     }
 
     /// Identifier and value of every specialization constant, booleans as 0 and 1.
-    pub fn specialization(&self) -> [(SpecializationId, u32); 8] {
+    pub fn specialization(&self) -> [(SpecializationId, u32); 9] {
         use SpecializationId as Id;
         [
             (Id::Basis, self.basis as u32),
@@ -74,6 +79,7 @@ impl Features {
             (Id::Ambient, self.ambient.into()),
             (Id::Light, self.light.into()),
             (Id::DebugView, self.debug_view as u32),
+            (Id::Flyaways, self.flyaways.into()),
         ]
     }
 
@@ -95,6 +101,7 @@ impl Features {
             "occlusion",
             if self.ambient { "occlusion.mode is none" } else { "no ambient light to dim" },
         );
+        leave(!self.flyaways, "flyaways", "the yarn has neither loops nor hairs");
         leave(!self.culling, "culling", "quality.culling is false");
         leave(!self.statistics, "statistics", "no one asked for them");
         out
@@ -116,6 +123,15 @@ mod tests {
     fn a_default_scene_leaves_out_only_statistics() {
         let out = features(|_, _| {}).left_out();
         assert_eq!(out.keys().copied().collect::<Vec<_>>(), ["statistics"]);
+    }
+
+    #[test]
+    fn a_yarn_without_loops_and_hairs_has_no_branch_for_them() {
+        let smooth = features(|_, fabric| {
+            fabric.yarn.hair_density_per_mm = 0.0;
+            fabric.yarn.loop_density_per_mm = 0.0;
+        });
+        assert!(!smooth.flyaways && smooth.left_out().contains_key("flyaways"));
     }
 
     #[test]

@@ -234,6 +234,8 @@ pub enum DebugView {
     Occlusion = 3,
     /// Ply.
     Ply = 4,
+    /// Migration, loop or hair (Wu & Yuksel 2019, Fig. 4).
+    Kind = 5,
 }
 
 /// Accepts `[fabric]` and `[[fabric]]` alike.

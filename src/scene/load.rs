@@ -1,7 +1,8 @@
 //! From a path to a scene.
 
-use super::fabric::one_line;
 use super::file::{FabricTable, LightTable, SceneFile};
+use super::keys::{KeyError, line_at};
+use super::yarn_table::check_yarns;
 use super::{Fabric, Scene, SceneError, overrides};
 use crate::io::error::{FileError, Place};
 use crate::io::yarn_file::Loaded;
@@ -19,26 +20,31 @@ impl SceneFile {
         self.light.clone().unwrap_or_else(|| vec![LightTable::default()])
     }
 
-    /// Checks what the types cannot.
-    fn validate(&self) -> Result<(), String> {
+    /// Checks what the types cannot, but for yarn tables.
+    fn validate(&self) -> Result<(), KeyError> {
         let lights = self.light();
         if lights.len() > 1 {
-            return Err(format!("light: expected at most 1 [[light]], found {}", lights.len()));
+            return Err(KeyError::new(
+                "light",
+                format!(": expected at most 1 [[light]], found {}", lights.len()),
+            ));
         }
         let rgb = |key: &str, rgb: [f64; 3], most: f64| {
             let good = rgb.iter().all(|c| (0.0..=most).contains(c));
-            good.then_some(()).ok_or_else(|| format!("{key} = {rgb:?}: allowed is 0 to {most} each"))
+            good.then_some(())
+                .ok_or_else(|| KeyError::new(key, format!(" = {rgb:?}: allowed is 0 to {most} each")))
         };
-        let range = |key: &str, value: f64, low: f64, high: f64| {
-            let good = (low..=high).contains(&value);
-            good.then_some(()).ok_or_else(|| format!("{key} = {value}: allowed is {low} to {high}"))
-        };
+        let range = KeyError::range;
         for light in &lights {
             rgb("light.irradiance", light.irradiance, 1e6)?;
             let direction = DVec3::from_array(light.direction);
             if !direction.is_finite() || direction.length() < 1e-9 {
-                return Err(format!("light.direction = {:?}: allowed is any vector but 0", light.direction));
+                let message = format!(" = {:?}: allowed is any vector but 0", light.direction);
+                return Err(KeyError::new("light.direction", message));
             }
+        }
+        for fabric in &self.fabric {
+            range("fabric.mm_per_unit", fabric.mm_per_unit.unwrap_or(1.0), 1e-9, 1e9)?;
         }
         for fiber in self.fabric.iter().filter_map(|f| f.fiber.as_ref()).chain([&self.fiber]) {
             rgb("fiber.diffuse", fiber.diffuse, 1.0)?;
@@ -59,6 +65,17 @@ impl SceneFile {
         range("quality.max_subdivisions", f64::from(self.quality.max_subdivisions), 1.0, 64.0)?;
         range("quality.patches_per_draw", f64::from(self.quality.patches_per_draw.unwrap_or(1)), 1.0, 1e9)
     }
+
+    /// Checks everything that does not need the yarn files. The error comes with the paths at which its
+    /// key may stand, the likeliest first.
+    fn check(&self) -> Result<(), (KeyError, Vec<String>)> {
+        self.validate().map_err(|error| {
+            // A fiber's look may stand in the scene or in a fabric.
+            let paths = vec![error.path.clone(), format!("fabric.{}", error.path)];
+            (error, paths)
+        })?;
+        check_yarns(self)
+    }
 }
 
 impl Scene {
@@ -78,7 +95,7 @@ impl Scene {
         for assignment in assignments {
             overrides::apply(&mut table, assignment).map_err(value)?;
         }
-        let mut file: SceneFile = table.try_into().map_err(|e| value(one_line(&e)))?;
+        let mut file: SceneFile = table.try_into().map_err(|e| value(KeyError::from_toml(&e).to_string()))?;
         if !is_scene {
             let model = path.to_str().ok_or_else(|| value("expected a UTF-8 path".into()))?.to_owned();
             match file.fabric.first_mut() {
@@ -86,7 +103,7 @@ impl Scene {
                 None => file.fabric.push(FabricTable { model, ..Default::default() }),
             }
         }
-        file.validate().map_err(value)?;
+        file.check().map_err(|(error, _)| value(error.to_string()))?;
         if file.fabric.is_empty() {
             return Err(value("expected a [fabric] with a model, found none".into()));
         }
@@ -105,7 +122,11 @@ impl Scene {
     /// Values out of range; fabric that cannot be knitted.
     pub fn stockinette(mut file: SceneFile, knit: &StockinetteParams) -> Result<Self, SceneError> {
         let name = "generated stockinette";
-        file.validate().map_err(|message| SceneError::Value { scene: name.to_owned(), message })?;
+        let value = |(error, _): (KeyError, _)| SceneError::Value {
+            scene: name.to_owned(),
+            message: error.to_string(),
+        };
+        file.check().map_err(value)?;
         let curves = stockinette(knit)?;
         let loaded =
             Loaded { curves, repairs: Vec::new(), notes: Vec::new(), format: "knit", kept_points: None };
@@ -127,11 +148,14 @@ fn read_table(path: &Path) -> Result<Table, SceneError> {
     }
     let text = std::fs::read_to_string(path).map_err(|e| FileError::io(path, "read", &e))?;
     let at_line = |error: toml::de::Error| {
-        let before = error.span().map_or(0, |span| span.start.min(text.len()));
-        let line = 1 + text.as_bytes()[..before].iter().filter(|&&b| b == b'\n').count() as u64;
-        FileError::new(path, Place::Line(line), one_line(&error))
+        let line = line_at(&text, error.span().map_or(0, |span| span.start));
+        FileError::new(path, Place::Line(line), KeyError::from_toml(&error).to_string())
     };
-    toml::from_str::<SceneFile>(&text).map_err(at_line)?;
+    let file = toml::from_str::<SceneFile>(&text).map_err(at_line)?;
+    file.check().map_err(|(error, paths)| {
+        let place = KeyError::line(&text, &paths).map_or(Place::File, Place::Line);
+        FileError::new(path, place, error.to_string())
+    })?;
     Ok(toml::from_str::<Table>(&text).map_err(at_line)?)
 }
 
@@ -182,11 +206,54 @@ mod tests {
         for (text, sets, expected) in [
             ("[fabric\n", &[][..], "line 1"),
             ("[fabric]\nmodel = 'yarn.obj'\n[camera]\nyaw = 3\n", &[], "line 4: unknown field `yaw`"),
+            ("[camera]\nyaw_dge = 3\n", &[], "line 2: unknown field `yaw_dge`, expected one of `yaw_deg`"),
+            ("[camera]\nyaw_dge = 3\n", &[], "; did you mean `yaw_deg`?"),
+            ("[camera]\n\nfov_y_deg = 500\n", &[], "line 3: camera.fov_y_deg = 500: allowed is 1 to 170"),
+            ("[fabric.fiber]\ndiffuse = [2, 0, 0]\n", &[], "line 2: fiber.diffuse = [2.0, 0.0, 0.0]"),
+            ("[camera]\nyaw_deg = '3'\n", &[], "line 2: invalid type"),
+            (
+                "[yarn]\npreset = 'silk1'\nply_cuont = 3\n",
+                &[],
+                "line 3: yarn.ply_cuont: unknown key; did you mean `ply_count`?",
+            ),
+            (
+                "[yarn]\npreset = 'silk_1'\n",
+                &[],
+                "line 2: yarn.preset = \"silk_1\": no such preset; did you mean `silk1`?",
+            ),
+            ("[yarn]\nply_count = 'two'\n", &[], "line 2: yarn.ply_count = \"two\": expected a whole number"),
+            ("[yarn]\nmigration_min = 1\nmigration_max = 0.5\n", &[], "line 3: yarn.migration_max = 0.5"),
+            (
+                "[yarn]\nmigration_max = 0.1\n",
+                &[],
+                "line 2: yarn.migration_max = 0.1: allowed is at least migration_min",
+            ),
+            (
+                "seed = 1\n[yarn]\nfibers_per_ply = 2000\n[fabric]\n[fabric.yarn]\nply_count = 0\n",
+                &[],
+                "line 6: yarn.ply_count = 0",
+            ),
+            (
+                "[[fabric]]\n[[fabric]]\nyarn = {hair_tapir = 1}\n",
+                &[],
+                "line 3: yarn.hair_tapir: unknown key; did you mean `hair_taper`?",
+            ),
+            ("yarn = 3\n", &[], "line 1: invalid type"),
             ("[fabric]\nmodel = 'none.bcc'\n", &[], "none.bcc"),
             ("", &[], "expected a [fabric]"),
             (GOOD, &["camera.fov_y_deg=500"], "camera.fov_y_deg = 500: allowed is 1 to 170"),
             (GOOD, &["yarn.density_beta=-1"], "yarn.density_beta = -1"),
             (GOOD, &["yarn.preset=wool"], "worsted_3ply"),
+            (GOOD, &["yarn.ply_cuont=2"], "yarn.ply_cuont: unknown key; did you mean `ply_count`?"),
+            (
+                GOOD,
+                &["fabric.yarn.ply_count=nan"],
+                "yarn.ply_count = NaN: expected a whole number, allowed is 1 to 8",
+            ),
+            (GOOD, &["yarn=3"], "yarn: invalid type: integer `3`"),
+            (GOOD, &["camera.yaw_deg=left"], "camera.yaw_deg: invalid type: string \"left\""),
+            (GOOD, &["camera.yaw_dge=1"], "did you mean `yaw_deg`?"),
+            (GOOD, &["shading.model=simpel"], "did you mean `simple`?"),
             (GOOD, &["light=[{direction=[0,0,0]}]"], "light.direction"),
             (GOOD, &["fiber.diffuse=[nan,0,0]"], "fiber.diffuse"),
             (GOOD, &["fabric.mm_per_unit=0"], "mm_per_unit"),

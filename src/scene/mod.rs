@@ -4,12 +4,13 @@ pub mod camera;
 pub mod fabric;
 pub mod features;
 pub mod file;
+pub mod keys;
 pub mod load;
 pub mod overrides;
+pub mod yarn_table;
 
 use crate::io::error::FileError;
 use crate::knit::error::KnitError;
-use crate::yarn::params::ParamError;
 pub use fabric::Fabric;
 pub use file::SceneFile;
 use glam::DVec3;
@@ -20,14 +21,6 @@ pub enum SceneError {
     /// A file is missing, unreadable or wrong.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A yarn parameter is out of range.
-    #[error("{scene}: {error}")]
-    Param {
-        /// The scene or yarn file.
-        scene: String,
-        /// The parameter.
-        error: ParamError,
-    },
     /// Fabric that cannot be knitted.
     #[error(transparent)]
     Knit(#[from] KnitError),

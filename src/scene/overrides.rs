@@ -1,10 +1,11 @@
 //! `--set yarn.ply_pitch_mm=4`: any scene key by its path.
 
+use crate::yarn::ranges;
 use toml::{Table, Value};
 
 /// Sets the key at the dotted `path` of a scene table, creating tables on the way. A number names an
 /// element of an array (`light.0.irradiance`); without one, an array of tables is taken at its first.
-/// `null` removes the key.
+/// `null` removes the key; a yarn's pitch becomes `"untwisted"`.
 ///
 /// # Errors
 /// One line that names the path and what stands in its way.
@@ -39,9 +40,16 @@ pub fn apply(scene: &mut Table, assignment: &str) -> Result<(), String> {
     }
     match parse_value(text.trim()) {
         Some(value) => table.insert(last.to_string(), value),
+        None if is_pitch(&keys) => table.insert(last.to_string(), Value::String("untwisted".into())),
         None => table.remove(*last),
     };
     Ok(())
+}
+
+/// Whether the path ends in a pitch of a yarn table: removed, it would be the preset's again.
+fn is_pitch(keys: &[&str]) -> bool {
+    let pitch = |key| ranges::find(key).is_some_and(|p| matches!(p.allowed, ranges::Allowed::Pitch(..)));
+    matches!(keys, [.., "yarn", key] if pitch(key))
 }
 
 /// A TOML value; anything that is none is taken as a string; `null` is none at all.
@@ -68,6 +76,9 @@ mod tests {
         assert_eq!(set("[yarn]\npreset = 'a'", "yarn.preset=b c").unwrap(), "[yarn]\npreset = \"b c\"\n");
         assert_eq!(set("[yarn]\na = 1", "yarn.a=null").unwrap(), "[yarn]\n");
         assert_eq!(set("", "camera.target_mm=[1, 2, 3]").unwrap(), "[camera]\ntarget_mm = [1, 2, 3]\n");
+        let untwisted = "[yarn]\nply_pitch_mm = \"untwisted\"\n";
+        assert_eq!(set("", "yarn.ply_pitch_mm=null").unwrap(), untwisted);
+        assert_eq!(set("ply_pitch_mm = 1", "ply_pitch_mm=null").unwrap(), "");
         let lights = "[[light]]\nkind = 'x'\n[[light]]\nkind = 'y'";
         assert!(set(lights, "light.1.kind=z").unwrap().contains("\"z\""));
         assert!(set(lights, "light.kind=z").unwrap().starts_with("[[light]]\nkind = \"z\""));

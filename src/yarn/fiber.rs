@@ -1,7 +1,7 @@
 //! The one function that places a fiber; twin of `glsl/yarn/fiber.glsl`.
 
-use super::migration::migration_radius;
 use super::params::YarnParams;
+use super::period::FiberShape;
 use super::table::Fiber;
 use crate::math::curve::bezier_point;
 use crate::math::frame::{direction_or, normal_perpendicular_to};
@@ -74,6 +74,8 @@ pub struct FiberPoint {
     pub tangent: DVec3,
     /// Distance from the yarn's centre line in the cross-section.
     pub center_distance: f64,
+    /// Share of the fiber's full width.
+    pub width: f64,
 }
 
 /// Rotations at t of a piece.
@@ -118,23 +120,22 @@ pub fn yarn_point(b: &[DVec3; 4], normals: [DVec3; 2], t: f64) -> YarnPoint {
 }
 
 /// Wu & Yuksel 2019, Sec. 3.1: ply centre, then the fiber inside the ply's rotating elliptical frame.
-pub fn fiber_point(yarn_at: &YarnPoint, twist: &Twist, yarn: &YarnParams, fiber: &Fiber) -> FiberPoint {
+pub fn fiber_point(
+    yarn_at: &YarnPoint,
+    twist: &Twist,
+    yarn: &YarnParams,
+    fiber: &Fiber,
+    shape: &FiberShape,
+) -> FiberPoint {
     let ply_angle = TAU * f64::from(fiber.ply) / f64::from(yarn.ply_count) + twist.ply;
-    let (sin_fiber, cos_fiber) = (fiber.angle + twist.fiber).sin_cos();
-    let (r, r_slope) = migration_radius(
-        fiber.radius,
-        fiber.migration_phase + twist.migration,
-        yarn.migration_min,
-        yarn.migration_max,
-    );
-    let r_rate = r_slope * twist.migration_rate;
+    let (sin_fiber, cos_fiber) = (fiber.angle + twist.fiber + shape.angle).sin_cos();
+    let fiber_rate = twist.fiber_rate + shape.angle_rate;
 
     // Offsets in the ply's frame: x away from the yarn's centre, y around it.
     let axes = DVec2::new(yarn.ellipse_short_mm, yarn.ellipse_long_mm);
-    let offset = r * DVec2::new(cos_fiber, sin_fiber) * axes;
-    let rate = (r_rate * DVec2::new(cos_fiber, sin_fiber)
-        + r * twist.fiber_rate * DVec2::new(-sin_fiber, cos_fiber))
-        * axes;
+    let (outward, around) = (DVec2::new(cos_fiber, sin_fiber), DVec2::new(-sin_fiber, cos_fiber));
+    let offset = shape.radius * outward * axes;
+    let rate = (shape.radius_rate * outward + shape.radius * fiber_rate * around) * axes;
 
     let binormal = yarn_at.tangent.cross(yarn_at.normal);
     let normal_ply = ply_angle.cos() * yarn_at.normal + ply_angle.sin() * binormal;
@@ -153,13 +154,25 @@ pub fn fiber_point(yarn_at: &YarnPoint, twist: &Twist, yarn: &YarnParams, fiber:
         position: yarn_at.center + from_center,
         tangent: direction_or(velocity, yarn_at.tangent),
         center_distance: away.hypot(offset.y),
+        width: shape.width,
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::yarn::period::migration_shape;
     use crate::yarn::presets;
+
+    fn migrating(y: &YarnPoint, twist: &Twist, yarn: &YarnParams, fiber: &Fiber) -> FiberPoint {
+        fiber_point(
+            y,
+            twist,
+            yarn,
+            fiber,
+            &migration_shape(fiber, twist.migration, twist.migration_rate, yarn),
+        )
+    }
 
     fn straight(turns_per_mm: f64) -> ([DVec3; 4], PieceTurns) {
         let p = [0.0, 0.4, 0.8, 1.2].map(|x| DVec3::new(x, 0.0, 0.0));
@@ -179,7 +192,7 @@ mod tests {
         let (p, turns) = straight(0.2);
         let at = |t| {
             let y = yarn_point(&p, [DVec3::Y, DVec3::Y], t);
-            fiber_point(&y, &twist_at(&turns, t), &yarn, &fiber)
+            migrating(&y, &twist_at(&turns, t), &yarn, &fiber)
         };
         let h = 1e-6;
         let slope = (at(0.4 + h).position - at(0.4 - h).position).normalize();
@@ -195,7 +208,7 @@ mod tests {
         let (_, turns) = straight(0.1);
         let at = |t| {
             let y = yarn_point(&p, [DVec3::Z, DVec3::Z], t);
-            fiber_point(&y, &twist_at(&turns, t), &yarn, &fiber)
+            migrating(&y, &twist_at(&turns, t), &yarn, &fiber)
         };
         let h = 1e-6;
         let slope = (at(0.6 + h).position - at(0.6 - h).position).normalize();
@@ -210,7 +223,7 @@ mod tests {
         for p in [[DVec3::ZERO; 4], hairpin] {
             for normals in [[DVec3::Y, -DVec3::Y], [DVec3::X, DVec3::X]] {
                 let y = yarn_point(&p, normals, 0.5);
-                let f = fiber_point(&y, &twist_at(&PieceTurns::default(), 0.5), &yarn, &fiber);
+                let f = migrating(&y, &twist_at(&PieceTurns::default(), 0.5), &yarn, &fiber);
                 assert!(f.position.is_finite() && (f.tangent.length() - 1.0).abs() < 1e-12);
             }
         }

@@ -46,6 +46,12 @@ pub fn subdivisions(b: &[DVec3; 4], cutting: &Cutting) -> u32 {
     pieces.ceil().clamp(1.0, f64::from(cutting.largest)) as u32
 }
 
+/// At least `pieces`, and enough that no two vertices are more than a quarter of a period apart: a step
+/// must not pass over a whole period. `pieces` is at most `largest`.
+pub fn period_pieces(pieces: u32, periods: f64, largest: u32) -> u32 {
+    (4.0 * periods.abs()).ceil().clamp(f64::from(pieces.min(largest)), f64::from(largest)) as u32
+}
+
 /// Distance from `eye` to the nearest control point of `b`, less `margin`, at least `nearest`.
 pub fn nearest_distance(b: &[DVec3; 4], eye: DVec3, margin: f64, nearest: f64) -> f64 {
     let distance = b.iter().map(|p| p.distance(eye)).fold(f64::INFINITY, f64::min);
@@ -106,6 +112,13 @@ mod tests {
             let middle = at((f64::from(k) + 0.5) / f64::from(n));
             assert!(middle.distance(0.5 * (a + b)) <= cutting.tolerance_mm);
         }
+    }
+
+    #[test]
+    fn a_step_is_at_most_a_quarter_period() {
+        assert_eq!(period_pieces(3, -1.1, 32), 5);
+        assert_eq!(period_pieces(7, 0.1, 32), 7);
+        assert_eq!(period_pieces(7, 100.0, 32), 32);
     }
 
     #[test]

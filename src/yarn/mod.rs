@@ -1,12 +1,17 @@
 //! The yarn in f64: parameters, plies, fibers, migration, frames and phases along a centre line.
 
+pub mod breaks;
 pub mod contact;
 pub mod density;
+pub mod fetch;
 pub mod fiber;
+pub mod flyaway;
 pub mod level;
 pub mod migration;
 pub mod params;
+pub mod period;
 pub mod presets;
+pub mod ranges;
 pub mod strand;
 pub mod table;
 pub mod transport;

@@ -1,59 +1,113 @@
-//! What describes a yarn's inside: Wu & Yuksel 2019, Sec. 3.1, and Zhao et al. 2016.
+//! What describes a yarn's inside: Wu & Yuksel 2019, Sec. 3.1, and Zhao et al. 2016. What each parameter
+//! may be stands once, in [`super::ranges::PARAMETERS`].
 
+use super::ranges::{PARAMETERS, ParamError};
 use serde::{Deserialize, Serialize};
+use toml::Table;
+
+/// Most fibers in all plies of a yarn.
+pub const MAX_FIBERS: u32 = 16_000;
+
+/// A normal distribution; `[mean, deviation]` in files.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(from = "[f64; 2]", into = "[f64; 2]")]
+pub struct Spread {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation, at least 0. As published for the fits: the generator of Zhao et al. draws with
+    /// 0.75 of it for hairs and 0.5 of it for loops.
+    pub deviation: f64,
+}
+
+impl From<[f64; 2]> for Spread {
+    fn from([mean, deviation]: [f64; 2]) -> Self {
+        Self { mean, deviation }
+    }
+}
+
+impl From<Spread> for [f64; 2] {
+    fn from(spread: Spread) -> Self {
+        [spread.mean, spread.deviation]
+    }
+}
 
 /// Parameters of a plied yarn. Lengths in mm; clockwise turns are negative about the yarn's direction.
+///
+/// Fly-aways (loops and hairs) are stated in the *round* ply: distances r from the ply's centre in mm, before
+/// the cross-section is pressed to its ellipse, so that R = r / [`Self::round_ply_radius_mm`], and angles in
+/// the frame that turns with the ply but not with its fibers. Zhao et al.'s generator makes them in that
+/// space, then presses and turns them with the ply.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct YarnParams {
-    /// Plies twisted around each other, 1 to 8.
+    /// Plies twisted around each other, n_ply. A single ply has nothing to turn around: where neither its
+    /// preset nor the scene says otherwise, it lies on the yarn's centre line (`yarn_radius_mm` = 0).
     pub ply_count: u32,
-    /// Fibers in each ply, 1 to 2000.
+    /// Fibers in each ply.
     pub fibers_per_ply: u32,
     /// Twice the distance of a ply's centre from the yarn's: *not* the yarn's outer radius.
     pub yarn_radius_mm: f64,
-    /// Yarn length over which the plies turn once; untwisted when absent.
+    /// alpha_ply: yarn length over which the plies turn once; untwisted when absent.
     pub ply_pitch_mm: Option<f64>,
     /// Whether the plies turn clockwise.
     pub ply_clockwise: bool,
-    /// Yarn length over which a fiber turns once inside its ply's rotating frame; untwisted when absent.
+    /// alpha: yarn length over which a fiber turns once inside its ply's rotating frame; untwisted when
+    /// absent.
     pub fiber_pitch_mm: Option<f64>,
     /// Whether the fibers turn clockwise.
     pub fiber_clockwise: bool,
-    /// Half-axis of a ply's elliptical cross-section toward the yarn's centre, e_N.
+    /// e_N: half-axis of a ply's elliptical cross-section toward the yarn's centre.
     pub ellipse_short_mm: f64,
-    /// Half-axis around the yarn's centre, e_B.
+    /// e_B: half-axis around the yarn's centre.
     pub ellipse_long_mm: f64,
-    /// Exponent of the fiber density, beta >= 0 (Zhao et al. 2016).
+    /// beta: exponent of the fiber density (Zhao et al. 2016).
     pub density_beta: f64,
-    /// Floor of the fiber density, epsilon in [0, 0.5].
+    /// epsilon: floor of the fiber density.
     pub density_epsilon: f64,
-    /// Smallest share of its radius a migrating fiber keeps, R_min in [0, 1].
+    /// R_min: smallest share of its radius a migrating fiber keeps.
     pub migration_min: f64,
-    /// Largest share, R_max in [R_min, 1.5].
+    /// R_max: largest share, at least `migration_min`.
     pub migration_max: f64,
-    /// Migration cycles per turn of the fiber, s >= 0.
+    /// s: migration cycles per turn of the fiber.
     pub migration_rate: f64,
     /// Diameter of one fiber in micrometres.
     pub fiber_diameter_um: f64,
-}
-
-/// A parameter outside its range.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("yarn.{key} = {value}: allowed is {allowed}")]
-pub struct ParamError {
-    /// The parameter's key in a scene or preset file.
-    pub key: &'static str,
-    /// What was given.
-    pub value: f64,
-    /// The allowed range, in words.
-    pub allowed: &'static str,
+    /// Loops per mm of yarn and ply: fibers pulled out over one period of their radius.
+    pub loop_density_per_mm: f64,
+    /// r_1: farthest distance of a loop from the ply's centre, whatever fiber it is made of. Where that is
+    /// nearer than the fiber would lie anyway, it is drawn anew.
+    pub loop_radius_mm: Spread,
+    /// Hairs per mm of yarn and ply: fibers with an open end. A hair is a straight line in (r, z, angle).
+    pub hair_density_per_mm: f64,
+    /// z_e: how far a hair runs along the yarn from where it leaves the ply to its tip. The fits' means are
+    /// near 0, of either sign, as hairs run both ways: the direction is drawn apart, and the length anew
+    /// where it is not positive. Mean + deviation must be positive, so that drawing ends.
+    pub hair_length_mm: Spread,
+    /// r_0: distance from the ply's centre where a hair leaves the ply. The generator extends the line
+    /// inward from there to the centre, where the ply hides it.
+    pub hair_radius_start_mm: Spread,
+    /// r_e: how much farther out its tip is than its start; an increment, not the tip's distance. Drawn anew
+    /// where negative.
+    pub hair_radius_gain_mm: Spread,
+    /// p_e: how far a hair turns around its ply from start to tip, counter-clockwise positive; either sign.
+    /// The start's own angle is uniform.
+    pub hair_angle_rad: Spread,
+    /// alpha_hair (Wu & Yuksel 2019, Sec. 3.1): length over which a hair turns once around its ply, in the
+    /// fibers' sense; when present it takes the place of `hair_angle_rad`.
+    pub hair_pitch_mm: Option<f64>,
+    /// Share of a hair's length, up to its tip, over which its thickness falls to a point.
+    pub hair_taper: f64,
 }
 
 impl YarnParams {
     /// Distance of a ply's centre from the yarn's: half of `yarn_radius_mm`.
     pub fn ply_offset_mm(&self) -> f64 {
         0.5 * self.yarn_radius_mm
+    }
+
+    /// Radius of the circle with the area of the ply's ellipse: what fly-aways' distances are shares of.
+    pub fn round_ply_radius_mm(&self) -> f64 {
+        (self.ellipse_short_mm * self.ellipse_long_mm).sqrt()
     }
 
     /// Radius of one fiber in mm.
@@ -67,7 +121,8 @@ impl YarnParams {
     }
 
     /// Radius of the circle around all plies: the largest hypot(offset + e_N cos t, e_B sin t), with
-    /// the fibers' migration beyond the ellipse. 1.03 to 1.31 times `yarn_radius_mm` for real yarns.
+    /// the fibers' migration beyond the ellipse; fly-aways reach farther. 1.03 to 1.31 times
+    /// `yarn_radius_mm` for real yarns.
     pub fn outer_radius_mm(&self) -> f64 {
         let offset = self.ply_offset_mm();
         let (short, long) = (self.ellipse_short_mm, self.ellipse_long_mm);
@@ -88,65 +143,33 @@ impl YarnParams {
         turns_per_mm(self.fiber_pitch_mm, self.fiber_clockwise)
     }
 
-    /// Checks every parameter against its range.
+    /// Checks every parameter against its range, then those that depend on each other.
     ///
     /// # Errors
-    /// The first parameter outside its range, with the range.
+    /// The first parameter that cannot be, with what is allowed.
     pub fn validate(&self) -> Result<(), ParamError> {
-        let positive = "a positive number of mm, at most 1e6";
-        let length = |v: f64| v > 0.0 && v <= 1e6;
-        let pitch = |p: Option<f64>| p.is_none_or(|v| (1e-3..=1e9).contains(&v));
-        let pitches = "1e-3 to 1e9 mm, or absent for untwisted";
-        let checks: [(&'static str, f64, bool, &'static str); 14] = [
-            ("ply_count", f64::from(self.ply_count), (1..=8).contains(&self.ply_count), "1 to 8"),
-            (
-                "fibers_per_ply",
-                f64::from(self.fibers_per_ply),
-                (1..=2000).contains(&self.fibers_per_ply),
-                "1 to 2000",
-            ),
-            (
-                "yarn_radius_mm",
-                self.yarn_radius_mm,
-                (0.0..=1e6).contains(&self.yarn_radius_mm),
-                "0 to 1e6 mm",
-            ),
-            ("ply_pitch_mm", self.ply_pitch_mm.unwrap_or(0.0), pitch(self.ply_pitch_mm), pitches),
-            ("fiber_pitch_mm", self.fiber_pitch_mm.unwrap_or(0.0), pitch(self.fiber_pitch_mm), pitches),
-            ("ellipse_short_mm", self.ellipse_short_mm, length(self.ellipse_short_mm), positive),
-            ("ellipse_long_mm", self.ellipse_long_mm, length(self.ellipse_long_mm), positive),
-            ("density_beta", self.density_beta, (0.0..=20.0).contains(&self.density_beta), "0 to 20"),
-            (
-                "density_epsilon",
-                self.density_epsilon,
-                (0.0..=0.5).contains(&self.density_epsilon),
-                "0 to 0.5",
-            ),
-            ("migration_min", self.migration_min, (0.0..=1.0).contains(&self.migration_min), "0 to 1"),
-            (
-                "migration_max",
-                self.migration_max,
-                (self.migration_min..=1.5).contains(&self.migration_max),
-                "migration_min to 1.5",
-            ),
-            ("migration_rate", self.migration_rate, (0.0..=100.0).contains(&self.migration_rate), "0 to 100"),
-            (
-                "fiber_diameter_um",
-                self.fiber_diameter_um,
-                self.fiber_diameter_um > 0.0 && self.fiber_diameter_um <= 1e6,
-                "a positive number of micrometres, at most 1e6",
-            ),
-            (
-                "fibers_per_ply",
-                f64::from(self.fiber_count()),
-                self.fiber_count() <= 16_000,
-                "at most 16000 fibers in all plies",
-            ),
-        ];
-        match checks.into_iter().find(|(_, _, good, _)| !good) {
-            None => Ok(()),
-            Some((key, value, _, allowed)) => Err(ParamError { key, value, allowed }),
+        let table = Table::try_from(self).expect("plain numbers and flags are TOML");
+        for parameter in PARAMETERS {
+            // A pitch that is absent is an untwisted one.
+            if let Some(value) = table.get(parameter.key) {
+                parameter.check(value)?;
+            }
         }
+        let wrong = |key, found: String, rule: String| Err(ParamError { key, found, rule });
+        if self.fiber_count() > MAX_FIBERS {
+            let rule = format!("allowed is at most {MAX_FIBERS} fibers in all {} plies", self.ply_count);
+            return wrong("fibers_per_ply", self.fibers_per_ply.to_string(), rule);
+        }
+        if self.migration_max < self.migration_min {
+            let rule = format!("allowed is at least migration_min = {}", self.migration_min);
+            return wrong("migration_max", self.migration_max.to_string(), rule);
+        }
+        let Spread { mean, deviation } = self.hair_length_mm;
+        if self.hair_density_per_mm > 0.0 && mean + deviation <= 0.0 {
+            let rule = "allowed is a mean + deviation above 0 mm, or hair_density_per_mm = 0".to_owned();
+            return wrong("hair_length_mm", format!("[{mean}, {deviation}]"), rule);
+        }
+        Ok(())
     }
 }
 
@@ -182,11 +205,33 @@ mod tests {
     fn validation_names_the_key_and_rejects_nan() {
         let good = presets::yarn("worsted_3ply").unwrap();
         assert_eq!(good.validate(), Ok(()));
+        let says = |yarn: YarnParams| yarn.validate().unwrap_err().to_string();
         let bad = YarnParams { density_beta: -1.0, ..good.clone() };
-        assert_eq!(bad.validate().unwrap_err().to_string(), "yarn.density_beta = -1: allowed is 0 to 20");
+        assert_eq!(says(bad), "yarn.density_beta = -1: allowed is 0 to 20");
         let bad = YarnParams { yarn_radius_mm: f64::NAN, ..good.clone() };
-        assert_eq!(bad.validate().unwrap_err().key, "yarn_radius_mm");
-        let bad = YarnParams { ply_count: 0, ..good };
-        assert_eq!(bad.validate().unwrap_err().key, "ply_count");
+        assert_eq!(says(bad), "yarn.yarn_radius_mm = NaN: allowed is 0 to 1000000 mm");
+        let bad = YarnParams { ply_count: 0, ..good.clone() };
+        assert_eq!(says(bad), "yarn.ply_count = 0: allowed is 1 to 8");
+        let bad = YarnParams { ellipse_long_mm: -0.1, ..good.clone() };
+        assert_eq!(says(bad), "yarn.ellipse_long_mm = -0.1: allowed is 0.000001 to 1000000 mm");
+        let bad = YarnParams { fiber_pitch_mm: Some(f64::INFINITY), ..good.clone() };
+        assert_eq!(bad.validate().unwrap_err().key, "fiber_pitch_mm");
+        let loops = Spread { mean: 0.1, deviation: f64::NAN };
+        let bad = YarnParams { loop_radius_mm: loops, ..good.clone() };
+        assert_eq!(bad.validate().unwrap_err().key, "loop_radius_mm");
+        assert_eq!(YarnParams { ply_pitch_mm: None, hair_pitch_mm: Some(3.0), ..good }.validate(), Ok(()));
+    }
+
+    #[test]
+    fn parameters_that_depend_on_each_other_are_checked() {
+        let good = presets::yarn("worsted_3ply").unwrap();
+        let bad = YarnParams { ply_count: 8, fibers_per_ply: 2000, ..good.clone() };
+        assert_eq!(bad.validate(), Ok(()), "exactly the most");
+        let bad = YarnParams { migration_min: 0.9, migration_max: 0.8, ..good.clone() };
+        let says = bad.validate().unwrap_err().to_string();
+        assert_eq!(says, "yarn.migration_max = 0.8: allowed is at least migration_min = 0.9");
+        let bad = YarnParams { hair_length_mm: Spread { mean: -1.0, deviation: 1.0 }, ..good };
+        assert_eq!(bad.validate().unwrap_err().key, "hair_length_mm");
+        assert_eq!(YarnParams { hair_density_per_mm: 0.0, ..bad }.validate(), Ok(()));
     }
 }

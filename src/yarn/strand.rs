@@ -36,6 +36,8 @@ pub struct Strands {
     pub pieces: Vec<Piece>,
     /// Control points as given, without phantom ones.
     pub control_point_count: usize,
+    /// For each curve, how many periods of the fibers' radius it closes after; 0 where it is open.
+    pub period_counts: Vec<u32>,
 }
 
 impl Strands {
@@ -106,6 +108,7 @@ pub fn strands(curves: &[Curve], basis: Basis, yarn: &YarnParams, seed: u64) -> 
         normals: Vec::new(),
         pieces: Vec::new(),
         control_point_count: curves.iter().map(|c| c.points.len()).sum(),
+        period_counts: vec![0; curves.len()],
     };
     for (index, curve) in curves.iter().enumerate() {
         if curve.points.len() >= 2 {
@@ -136,6 +139,9 @@ fn append(all: &mut Strands, index: usize, curve: &Curve, yarn: &YarnParams, see
     }
 
     let rates = rates(yarn, total, curve.closed);
+    if curve.closed {
+        all.period_counts[index] = (rates[2] * total).abs().round() as u32;
+    }
     let mut rng = Rng::new(seed, &[index as u64]);
     let phases: [f64; 3] = std::array::from_fn(|_| rng.uniform());
     let mut length_start_mm = 0.0;
@@ -166,9 +172,8 @@ fn rates(yarn: &YarnParams, length_mm: f64, closed: bool) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::yarn::fiber::{fiber_point, twist_at, yarn_point};
+    use crate::yarn::fetch::FiberField;
     use crate::yarn::presets;
-    use crate::yarn::table::fiber_table;
     use std::f64::consts::TAU;
 
     fn wavy_loop() -> Curve {
@@ -186,25 +191,8 @@ mod tests {
     }
 
     #[test]
-    fn fibers_of_a_closed_curve_meet_at_the_closing_point() {
-        let yarn = presets::yarn("worsted_3ply").unwrap();
-        let strands = strands(&[wavy_loop()], Basis::CatmullRom, &yarn, 9);
-        assert_eq!(strands.pieces.len(), 60);
-        let at = |piece: &Piece, t: f64, fiber| {
-            let y = yarn_point(&strands.bezier(piece), strands.knot_normals(piece), t);
-            fiber_point(&y, &twist_at(&piece.turns, t), &yarn, fiber)
-        };
-        for fiber in &fiber_table(&yarn, 2) {
-            let begin = at(&strands.pieces[0], 0.0, fiber).position;
-            let end = at(&strands.pieces[59], 1.0, fiber).position;
-            assert!((begin - end).length() < 1e-3 * yarn.ellipse_long_mm, "{begin} vs {end}");
-        }
-    }
-
-    #[test]
     fn neighbouring_pieces_meet_for_every_basis() {
         let yarn = presets::yarn("worsted_3ply").unwrap();
-        let fiber = fiber_table(&yarn, 2)[0];
         for basis in [Basis::CatmullRom, Basis::BSpline, Basis::Bezier, Basis::Polyline] {
             for closed in [true, false] {
                 let mut curve = wavy_loop();
@@ -212,13 +200,10 @@ mod tests {
                 if basis == Basis::Bezier && !closed {
                     curve.points.truncate(58);
                 }
-                let strands = strands(&[curve], basis, &yarn, 9);
-                for pair in strands.pieces.windows(2) {
-                    let at = |piece: &Piece, t: f64| {
-                        let y = yarn_point(&strands.bezier(piece), strands.knot_normals(piece), t);
-                        fiber_point(&y, &twist_at(&piece.turns, t), &yarn, &fiber)
-                    };
-                    let (end, begin) = (at(&pair[0], 1.0), at(&pair[1], 0.0));
+                let field = FiberField::new(strands(&[curve], basis, &yarn, 9), &yarn, 9);
+                for pair in field.strands.pieces.windows(2) {
+                    let (end, begin) =
+                        (field.fiber_at(&pair[0], 7, 1.0).0, field.fiber_at(&pair[1], 7, 0.0).0);
                     // A Bezier chain through arbitrary points has corners; its centre line still meets.
                     let gap = if basis == Basis::Bezier {
                         (end.yarn_center - begin.yarn_center).length()
