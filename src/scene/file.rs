@@ -63,7 +63,7 @@ pub struct FiberTable {
 
 impl Default for FiberTable {
     fn default() -> Self {
-        Self { diffuse: [0.56, 0.50, 0.40], specular: [0.05, 0.05, 0.045], specular_width_deg: 12.0 }
+        Self { diffuse: [0.56, 0.50, 0.40], specular: [0.025, 0.025, 0.023], specular_width_deg: 12.0 }
     }
 }
 
@@ -81,7 +81,7 @@ pub struct LightTable {
 
 impl Default for LightTable {
     fn default() -> Self {
-        Self { kind: LightKind::Directional, direction: [-0.55, -0.75, -0.55], irradiance: [3.0, 2.94, 2.82] }
+        Self { kind: LightKind::Directional, direction: [0.6, -0.7, -0.4], irradiance: [3.6, 3.5, 3.3] }
     }
 }
 
@@ -104,7 +104,7 @@ pub struct AmbientTable {
 
 impl Default for AmbientTable {
     fn default() -> Self {
-        Self { radiance: [0.36, 0.38, 0.42] }
+        Self { radiance: [0.2, 0.22, 0.26] }
     }
 }
 

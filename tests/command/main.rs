@@ -65,7 +65,7 @@ const KEYS: [(&str, bool); 19] = [
 fn stats_fault(stats: &Value) -> Option<String> {
     for (key, counted) in KEYS {
         let Some(value) = stats.get(key) else { return Some(format!("{key} is missing")) };
-        if counted && !value.as_u64().is_some_and(|n| n > 0) {
+        if counted && value.as_u64().is_none_or(|n| n == 0) {
             return Some(format!("{key} = {value}"));
         }
     }

@@ -1,0 +1,92 @@
+//! From curves and settings to a picture in process.
+
+use glam::DVec3;
+use worsted::frame::sampling::Sampling;
+use worsted::frame::stats::Stats;
+use worsted::frame::{Picture, Renderer, Request};
+use worsted::io::bcc::write_bcc;
+use worsted::io::curves::{Basis, Curve, CurveSet, UpAxis};
+use worsted::io::picture::LinearImage;
+use worsted::knit::stockinette::{StockinetteParams, stockinette};
+use worsted::metrics::coverage::Coverage;
+use worsted::scene::Scene;
+
+use crate::shared_device::shared_device;
+
+/// A swatch of 2 courses of 3 loops.
+pub fn swatch() -> CurveSet {
+    stockinette(&StockinetteParams { courses: 2, wales: 3, ..Default::default() }).unwrap()
+}
+
+/// One open yarn.
+pub fn yarn(basis: Basis, points: &[[f64; 3]]) -> CurveSet {
+    let points = points.iter().map(|&p| DVec3::from_array(p)).collect();
+    CurveSet { basis, up_axis: Some(UpAxis::Y), curves: vec![Curve { points, closed: false }] }
+}
+
+/// A curved yarn of few pieces.
+pub fn hook() -> CurveSet {
+    let points = [
+        [-9.0, -6.0, 0.0],
+        [-6.0, -1.0, 1.0],
+        [-4.0, 4.0, 0.0],
+        [0.0, 6.0, -1.0],
+        [3.0, 4.0, 0.0],
+        [2.0, 1.0, 2.0],
+    ];
+    yarn(Basis::CatmullRom, &points)
+}
+
+/// A scene around `curves`, by way of a file: 1 unit is 1 mm, and `sets` are as after `--set`.
+pub fn scene(curves: &CurveSet, sets: &[&str]) -> Scene {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("yarn.bcc");
+    write_bcc(&path, curves).unwrap();
+    let sets = [&["fabric.mm_per_unit=1"], sets].concat();
+    Scene::load(&path, &sets.iter().map(|set| set.to_string()).collect::<Vec<_>>()).unwrap()
+}
+
+/// The picture and its statistics, both sound: no NaN, nothing clamped, no validation error, not empty.
+pub fn draw_counted(scene: Scene, size: [u32; 2], samples: u32, statistics: bool) -> (Picture, Stats) {
+    let device = shared_device();
+    let sampling = Sampling::new(samples).unwrap();
+    let request = Request { size, sampling, statistics, profile: false };
+    let mut renderer = Renderer::new(device, scene, request).unwrap();
+    let picture = renderer.render(&|_| ()).unwrap();
+    device.check_validation().unwrap();
+    let stats = renderer.stats().clone();
+    assert_eq!((stats.nan_pixels, stats.clamped_pixels), (0, 0));
+    picture.linear.check_finite().unwrap();
+    assert!(picture.linear.pixels.iter().any(|pixel| pixel[3] > 0.0), "nothing was drawn");
+    (picture, stats)
+}
+
+/// [`draw_counted`] without the statistics.
+pub fn draw(scene: Scene, size: [u32; 2], samples: u32) -> Picture {
+    draw_counted(scene, size, samples, false).0
+}
+
+/// Pixels whose values differ at all.
+pub fn differing(a: &LinearImage, b: &LinearImage) -> usize {
+    assert_eq!((a.width, a.height, a.pixels.len()), (b.width, b.height, b.pixels.len()));
+    a.pixels.iter().zip(&b.pixels).filter(|(a, b)| a != b).count()
+}
+
+/// Mean over the covered pixels of the RGB radiance.
+pub fn mean_radiance(picture: &LinearImage) -> f64 {
+    let covered = Coverage::of_linear(picture, picture).unwrap();
+    let sum: f64 = covered.indices().flat_map(|i| picture.pixels[i][..3].iter()).map(|&c| f64::from(c)).sum();
+    sum / (3 * covered.count()) as f64
+}
+
+/// Mean row of the yarn, weighted by coverage: 0 is the top, 1 the bottom.
+pub fn center_row(picture: &LinearImage) -> f64 {
+    let width = picture.width as usize;
+    let (mut rows, mut weight) = (0.0, 0.0);
+    for (index, pixel) in picture.pixels.iter().enumerate() {
+        let alpha = f64::from(pixel[3]);
+        rows += alpha * ((index / width) as f64 + 0.5);
+        weight += alpha;
+    }
+    rows / (weight * f64::from(picture.height))
+}
