@@ -133,6 +133,9 @@ impl Renderer {
         let jitters = self.request.sampling.jitters();
         let mut taken = Duration::ZERO;
         let mut passes = HashMap::new();
+        if self.request.statistics {
+            self.statistics.replace(&[Statistics::default()])?;
+        }
         for (index, &jitter) in jitters.iter().enumerate() {
             let frame = upload::frame(&self.scene, &camera, self.request.size, jitter);
             self.frame.write(0, &[frame])?;

@@ -6,10 +6,10 @@
 #include "../lib/strip.glsl"
 #include "../shading/occlusion.glsl"
 
-layout(location = 0) in vec3 fragment_position;
-layout(location = 1) in vec3 fragment_tangent;
-layout(location = 2) in vec4 fragment_side;
-layout(location = 3) in float fragment_distance;
+layout(location = 0) centroid in vec3 fragment_position;
+layout(location = 1) centroid in vec3 fragment_tangent;
+layout(location = 2) centroid in vec4 fragment_side;
+layout(location = 3) centroid in float fragment_distance;
 layout(location = 4) flat in uvec2 fragment_fiber;  // index, kind
 
 layout(location = 0) out vec4 radiance;

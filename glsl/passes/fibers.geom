@@ -14,10 +14,11 @@ layout(location = 2) in float center_distance[];
 layout(location = 3) in uint fiber_index[];
 layout(location = 4) in ivec4 joining[];
 
-layout(location = 0) out vec3 fragment_position;
-layout(location = 1) out vec3 fragment_tangent;
-layout(location = 2) out vec4 fragment_side;      // xyz: side, w: across, -1..1
-layout(location = 3) out float fragment_distance; // from the yarn's centre, as a share of outer_radius
+// Centroid: a fiber is often thinner than a pixel, whose centre then lies outside its triangles.
+layout(location = 0) centroid out vec3 fragment_position;
+layout(location = 1) centroid out vec3 fragment_tangent;
+layout(location = 2) centroid out vec4 fragment_side;      // xyz: side, w: across, -1..1
+layout(location = 3) centroid out float fragment_distance; // from the yarn's centre, as a share of outer_radius
 layout(location = 4) flat out uvec2 fragment_fiber;  // index, kind
 
 void main() {

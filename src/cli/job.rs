@@ -4,7 +4,10 @@ use super::args::{Common, Render};
 use super::output::Output;
 use crate::error::Error;
 use crate::frame::Request;
+use crate::io::picture::{MAX_PIXELS, MAX_SIDE};
+use crate::io::whole::check_target;
 use crate::scene::Scene;
+use std::path::Path;
 
 /// A picture to be drawn.
 pub struct RenderJob {
@@ -24,9 +27,6 @@ pub struct RenderJob {
     pub common: Common,
 }
 
-/// Largest picture side in pixels.
-const MAX_SIDE: u32 = 16_384;
-
 impl RenderJob {
     /// Resolves arguments and loads the scene.
     ///
@@ -34,6 +34,9 @@ impl RenderJob {
     /// Arguments that make no sense, a scene that cannot be had.
     pub fn new(args: &Render, common: &Common) -> Result<Self, Error> {
         let outputs = args.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
+        if let Some(stats) = args.stats.as_deref().filter(|path| *path != Path::new("-")) {
+            check_target(stats)?;
+        }
         let mut assignments = Vec::new();
         if let Some(camera) = &args.camera {
             assignments.extend(camera_assignments(camera)?);
@@ -59,9 +62,11 @@ impl RenderJob {
 /// `1280x960`.
 fn parse_size(text: &str) -> Result<[u32; 2], Error> {
     let side = |s: &str| s.parse::<u32>().ok().filter(|n| (1..=MAX_SIDE).contains(n));
-    let parsed = text.split_once('x').and_then(|(w, h)| Some([side(w)?, side(h)?]));
+    let fits = |[w, h]: &[u32; 2]| u64::from(*w) * u64::from(*h) <= MAX_PIXELS;
+    let parsed = text.split_once('x').and_then(|(w, h)| Some([side(w)?, side(h)?])).filter(fits);
     parsed.ok_or_else(|| {
-        Error::Arguments(format!("--size {text}: expected WxH with sides of 1 to {MAX_SIDE} pixels"))
+        let expected = format!("sides of 1 to {MAX_SIDE} pixels and at most {MAX_PIXELS} in all");
+        Error::Arguments(format!("--size {text}: expected WxH with {expected}"))
     })
 }
 
@@ -108,7 +113,7 @@ mod tests {
     #[test]
     fn sizes() {
         assert_eq!(parse_size("640x480").unwrap(), [640, 480]);
-        for bad in ["640", "0x4", "640x", "axb", "99999x1", "4x-1", ""] {
+        for bad in ["640", "0x4", "640x", "axb", "99999x1", "16384x16384", "4x-1", ""] {
             assert!(parse_size(bad).is_err(), "{bad}");
         }
     }

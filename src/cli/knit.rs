@@ -3,6 +3,7 @@
 use super::args::{Knit, Pattern, Stockinette};
 use crate::error::Error;
 use crate::io::bcc::write_bcc;
+use crate::io::whole::check_target;
 use crate::knit::stockinette::{StockinetteParams, stockinette};
 use crate::yarn::presets;
 
@@ -13,6 +14,11 @@ use crate::yarn::presets;
 pub fn run(args: &Knit) -> Result<(), Error> {
     match &args.pattern {
         Pattern::Stockinette(args) => {
+            if args.output.extension().is_none_or(|e| !e.eq_ignore_ascii_case("bcc")) {
+                let message = format!("-o {}: expected a name ending in .bcc", args.output.display());
+                return Err(Error::Arguments(message));
+            }
+            check_target(&args.output)?;
             let curves = stockinette(&params(args))?;
             write_bcc(&args.output, &curves)?;
         }

@@ -11,6 +11,7 @@ mod render;
 use crate::error::Error;
 use crate::vulkan::{Device, DeviceOptions, Validation};
 use args::{Args, Command, Common};
+use std::io::IsTerminal;
 use std::sync::Arc;
 
 /// Runs the command that was typed.
@@ -38,6 +39,7 @@ pub fn start_logging(common: &Common) {
     tracing_subscriber::fmt()
         .with_max_level(level)
         .with_writer(std::io::stderr)
+        .with_ansi(std::io::stderr().is_terminal())
         .with_target(false)
         .without_time()
         .init();

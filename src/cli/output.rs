@@ -2,9 +2,8 @@
 
 use crate::error::Error;
 use crate::frame::Picture;
-use crate::io::error::FileError;
 use crate::io::picture::{DisplayImage, LinearImage, write_exr, write_png};
-use std::io::Write;
+use crate::io::whole::{check_target, write_whole};
 use std::path::{Path, PathBuf};
 
 /// What a picture file holds.
@@ -26,10 +25,10 @@ pub struct Output {
 }
 
 impl Output {
-    /// Checks the extension before anything is drawn.
+    /// Checks the extension and the folder before anything is drawn.
     ///
     /// # Errors
-    /// An extension that is neither `.png` nor `.exr`.
+    /// An extension that is neither `.png` nor `.exr`; a folder that does not exist.
     pub fn new(path: &Path) -> Result<Self, Error> {
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
         let format = match extension.as_deref() {
@@ -40,6 +39,7 @@ impl Output {
                 return Err(Error::Arguments(message));
             }
         };
+        check_target(path)?;
         Ok(Self { path: path.to_owned(), format })
     }
 
@@ -68,14 +68,10 @@ impl Output {
 /// # Errors
 /// What the file system says.
 pub fn write_text(path: &Path, text: &str) -> Result<(), Error> {
-    let failed = |e: std::io::Error| FileError::io(path, "write", &e);
     if path == Path::new("-") {
         println!("{text}");
         return Ok(());
     }
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
-    file.write_all(text.as_bytes()).and_then(|()| file.write_all(b"\n")).map_err(failed)?;
-    file.persist(path).map_err(|e| failed(e.error))?;
+    write_whole(path, |out| writeln!(out, "{text}"))?;
     Ok(())
 }

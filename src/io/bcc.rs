@@ -16,13 +16,14 @@
 //! | info bytes that are no text | ignored |
 //! | curves too short to draw | passed on: [`super::repair`] drops them |
 
-use std::io::{BufWriter, Write};
+use std::io::Write;
 use std::path::Path;
 
 use glam::DVec3;
 
 use super::curves::{Basis, Curve, CurveSet, UpAxis};
 use super::error::{FileError, Place};
+use super::whole::write_whole;
 use super::yarn_file::{Loaded, coordinate_fault, excerpt, read_file_bytes};
 
 /// The first three bytes of every BCC file.
@@ -227,18 +228,7 @@ fn count_fault(curve: &Curve, basis: Basis) -> Option<String> {
 /// count that does not fit, 2^31 points or more), or the operating system's; no file is left behind then.
 pub fn write_bcc(path: &Path, set: &CurveSet) -> Result<(), FileError> {
     check_writable(path, set)?;
-    let failed = |e: std::io::Error| FileError::io(path, "write", &e);
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    // A temporary file is private by default; a model is as public as the user's umask says.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.prefix(".worsted-").suffix(".part").tempfile_in(folder).map_err(failed)?;
-    let mut out = BufWriter::new(file.as_file_mut());
-    write_curves(&mut out, set).and_then(|()| out.flush()).map_err(failed)?;
-    drop(out);
-    file.persist(path).map_err(|e| failed(e.error))?;
-    Ok(())
+    write_whole(path, |out| write_curves(out, set))
 }
 
 fn check_writable(path: &Path, set: &CurveSet) -> Result<(), FileError> {
@@ -260,7 +250,7 @@ fn check_writable(path: &Path, set: &CurveSet) -> Result<(), FileError> {
     Ok(())
 }
 
-fn write_curves(out: &mut impl Write, set: &CurveSet) -> std::io::Result<()> {
+fn write_curves(out: &mut dyn Write, set: &CurveSet) -> std::io::Result<()> {
     let kind = match set.basis {
         Basis::CatmullRom => b"C0",
         Basis::BSpline => b"BS",

@@ -6,4 +6,5 @@ pub mod error;
 pub mod obj;
 pub mod picture;
 pub mod repair;
+pub mod whole;
 pub mod yarn_file;

@@ -1,12 +1,13 @@
 //! Pictures: linear radiance (OpenEXR) and display-referred bytes (PNG), read and written through `image`.
 
 use std::fs::File;
-use std::io::{Cursor, Read, Write};
+use std::io::{Cursor, Read};
 use std::path::Path;
 
 use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Limits};
 
 use crate::io::error::{FileError, Place};
+use crate::io::whole::write_whole;
 use crate::math::color::srgb_from_linear;
 
 /// The longest side of a picture that is read or written, in pixels.
@@ -155,7 +156,7 @@ pub fn write_png(path: &Path, image: &DisplayImage) -> Result<(), FileError> {
     image::codecs::png::PngEncoder::new(&mut bytes)
         .write_image(image.pixels.as_flattened(), image.width, image.height, ExtendedColorType::Rgba8)
         .map_err(|e| refused(path, "write", &e))?;
-    write_whole(path, &bytes)
+    write_whole(path, |out| out.write_all(&bytes))
 }
 
 /// Writes 32-bit float RGBA OpenEXR, losslessly compressed; NaN and infinity are kept as they are. The same
@@ -167,7 +168,7 @@ pub fn write_exr(path: &Path, image: &LinearImage) -> Result<(), FileError> {
     image::codecs::openexr::OpenExrEncoder::new(&mut bytes)
         .write_image(&samples, image.width, image.height, ExtendedColorType::Rgba32F)
         .map_err(|e| refused(path, "write", &e))?;
-    write_whole(path, bytes.get_ref())
+    write_whole(path, |out| out.write_all(bytes.get_ref()))
 }
 
 /// Reads a PNG of any colour type as sRGB bytes: grey is spread to three channels, 16 bits are rounded to 8, a
@@ -208,21 +209,6 @@ fn read_whole(path: &Path) -> Result<Vec<u8>, FileError> {
         return Err(FileError::new(path, Place::File, message));
     }
     Ok(bytes)
-}
-
-/// Writes next to `path` and renames, so that nobody ever sees half a picture.
-fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    let failed = |e: &std::io::Error| FileError::io(path, "write", e);
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".picture-").suffix(".part");
-    // A temporary file is private by default; a picture gets what the user's umask grants any new file.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder).map_err(|e| failed(&e))?;
-    file.write_all(bytes).and_then(|()| file.flush()).map_err(|e| failed(&e))?;
-    file.persist(path).map_err(|e| failed(&e.error))?;
-    Ok(())
 }
 
 fn decode(path: &Path, bytes: &[u8], format: ImageFormat) -> Result<DynamicImage, FileError> {

@@ -113,7 +113,6 @@ fn statistics_have_every_key_and_add_up() {
 }
 
 #[test]
-#[ignore = "the counters run on from picture to picture: src/frame.rs never sets them back"]
 fn statistics_count_one_frame_however_many_are_drawn() {
     let (once, thrice) = (profiled(&[]), profiled(&["--repeat", "3"]));
     assert_eq!(thrice["frame_ms"]["frames"], 3);

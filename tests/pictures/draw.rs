@@ -3,10 +3,10 @@
 use glam::DVec3;
 use worsted::frame::sampling::Sampling;
 use worsted::frame::stats::Stats;
-use worsted::frame::{Picture, Renderer, Request};
+use worsted::frame::{Renderer, Request};
 use worsted::io::bcc::write_bcc;
 use worsted::io::curves::{Basis, Curve, CurveSet, UpAxis};
-use worsted::io::picture::LinearImage;
+use worsted::io::picture::{DisplayImage, LinearImage};
 use worsted::knit::stockinette::{StockinetteParams, stockinette};
 use worsted::metrics::coverage::Coverage;
 use worsted::scene::Scene;
@@ -46,13 +46,24 @@ pub fn scene(curves: &CurveSet, sets: &[&str]) -> Scene {
     Scene::load(&path, &sets.iter().map(|set| set.to_string()).collect::<Vec<_>>()).unwrap()
 }
 
+/// A finished picture as the comparators take it.
+pub struct Picture {
+    pub linear: LinearImage,
+    pub display: DisplayImage,
+}
+
 /// The picture and its statistics, both sound: no NaN, nothing clamped, no validation error, not empty.
 pub fn draw_counted(scene: Scene, size: [u32; 2], samples: u32, statistics: bool) -> (Picture, Stats) {
     let device = shared_device();
     let sampling = Sampling::new(samples).unwrap();
     let request = Request { size, sampling, statistics, profile: false };
     let mut renderer = Renderer::new(device, scene, request).unwrap();
-    let picture = renderer.render(&|_| ()).unwrap();
+    let drawn = renderer.render(&|_| ()).unwrap();
+    let [width, height] = drawn.size;
+    let picture = Picture {
+        linear: LinearImage { width, height, pixels: drawn.linear },
+        display: DisplayImage { width, height, pixels: drawn.display },
+    };
     device.check_validation().unwrap();
     let stats = renderer.stats().clone();
     assert_eq!((stats.nan_pixels, stats.clamped_pixels), (0, 0));

@@ -64,7 +64,7 @@ fn culling_drops_only_what_is_not_seen() {
     for (yaw, target) in [("0", "[6, 3, 0]"), ("35", "[-4, 1, 0]"), ("90", "[2, -2, 0.5]")] {
         let build = |culling: &str| {
             let camera = [format!("camera.yaw_deg={yaw}"), format!("camera.target_mm={target}")];
-            let sets = ["camera.distance_mm=9", "yarn.fibers_per_ply=40", culling, &camera[0], &camera[1]];
+            let sets = ["camera.distance_mm=7", "yarn.fibers_per_ply=40", culling, &camera[0], &camera[1]];
             scene(&swatch(), &sets)
         };
         let (culled, counted) = draw_counted(build("quality.culling=true"), SMALL, 16, true);

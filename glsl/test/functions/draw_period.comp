@@ -1,0 +1,11 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../flyaway_kernel.glsl"
+
+void run() {
+    Segment segment = take_segment();
+    uint fiber_index = take_uint();
+    int index = int(take_uint());
+    Yarn yarn = take_yarn();
+    give(draw_period(segment, fiber_index, index, yarn));
+}

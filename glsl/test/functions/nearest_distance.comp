@@ -1,0 +1,13 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../kernel.glsl"
+#include "../../yarn/level.glsl"
+
+void run() {
+    vec3 b[4];
+    take_piece(b);
+    vec3 eye = take_vec3();
+    float margin = take_float();
+    float nearest = take_float();
+    give(nearest_distance(b, eye, margin, nearest));
+}

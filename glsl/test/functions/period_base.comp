@@ -1,0 +1,9 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../flyaway_kernel.glsl"
+
+void run() {
+    Segment segment = take_segment();
+    Yarn yarn = take_yarn();
+    give(float(period_base(segment, yarn)));
+}

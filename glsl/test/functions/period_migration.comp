@@ -1,0 +1,14 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../flyaway_kernel.glsl"
+
+void run() {
+    Fiber fiber = take_fiber();
+    Period period = take_period();
+    float x = take_float();
+    float x_rate = take_float();
+    Yarn yarn = take_yarn();
+    vec2 r = period_migration(fiber, period, x, x_rate, yarn);
+    give(r.x);
+    give(r.y);
+}

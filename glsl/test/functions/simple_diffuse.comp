@@ -1,0 +1,11 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../kernel.glsl"
+#include "../../bsdf/simple.glsl"
+
+void run() {
+    vec3 strength = take_vec3();
+    vec3 normal = take_vec3();
+    vec3 to_light = take_vec3();
+    give(simple_diffuse(strength, normal, to_light));
+}

@@ -1,0 +1,117 @@
+//! The Rust side: layouts of `src/gpu_types.rs` as the compiler has them.
+
+use crate::reflection::{Layout, Member};
+use worsted::gpu_types::{ControlPoint, Fiber, Frame, Segment, Statistics, Yarn};
+
+/// A Rust type's name in GLSL.
+trait Glsl {
+    fn kind() -> String;
+}
+
+macro_rules! glsl_names {
+    ($($rust:ty => $glsl:literal),* $(,)?) => {
+        $(impl Glsl for $rust {
+            fn kind() -> String {
+                $glsl.to_owned()
+            }
+        })*
+    };
+}
+
+glsl_names! {
+    f32 => "float", u32 => "uint", i32 => "int", [f32; 3] => "vec3", [f32; 4] => "vec4",
+    [[f32; 4]; 4] => "mat4", [[f32; 4]; 5] => "vec4[5]",
+}
+
+/// The GLSL name of a field's type.
+fn field_kind<S, F: Glsl>(_: fn(&S) -> &F) -> String {
+    F::kind()
+}
+
+/// The layout of a struct. The pattern names every field, so that leaving one out does not compile.
+macro_rules! layout {
+    ($name:ident { $($field:ident),* $(,)? }) => {{
+        let $name { $($field: _),* } = bytemuck::Zeroable::zeroed();
+        Layout {
+            name: stringify!($name).to_owned(),
+            stride: size_of::<$name>(),
+            members: vec![$(Member {
+                name: stringify!($field).to_owned(),
+                offset: std::mem::offset_of!($name, $field),
+                kind: field_kind(|value: &$name| &value.$field),
+            }),*],
+        }
+    }};
+}
+
+/// Every struct that both sides have.
+pub fn layouts() -> Vec<Layout> {
+    vec![
+        layout!(ControlPoint { position, normal_octahedral }),
+        layout!(Segment {
+            first_point,
+            curve,
+            migration_period,
+            migration_period_count,
+            ply_turns,
+            fiber_turns,
+            migration_turns,
+            padding2,
+            ply_turns_delta,
+            fiber_turns_delta,
+            migration_turns_delta,
+            padding3
+        }),
+        layout!(Fiber { radius, angle, migration_phase, ply }),
+        layout!(Yarn {
+            ply_count,
+            fiber_count,
+            ply_offset,
+            ellipse_short,
+            ellipse_long,
+            migration_min,
+            migration_max,
+            fiber_radius,
+            outer_radius,
+            max_subdivisions,
+            segment_count,
+            seed,
+            loop_probability,
+            loop_radius_mean,
+            loop_radius_sd,
+            hair_probability,
+            hair_start_mean,
+            hair_start_sd,
+            hair_gain_mean,
+            hair_gain_sd,
+            hair_share_mean,
+            hair_share_sd,
+            hair_angle_mean,
+            hair_angle_sd,
+            hair_turns_per_period,
+            fiber_turns_per_period,
+            hair_taper,
+            periods_per_migration,
+            padding,
+            padding2,
+            padding3,
+            reach,
+            occlusion,
+            diffuse,
+            specular
+        }),
+        layout!(Frame {
+            clip_from_world,
+            eye_world,
+            frustum_world,
+            light_direction_world,
+            light_irradiance,
+            ambient_radiance,
+            tolerance_per_mm,
+            near_mm,
+            padding,
+            padding2
+        }),
+        layout!(Statistics { patches_drawn, patches_culled, fiber_segments_low, fiber_segments_high }),
+    ]
+}
