@@ -1,4 +1,4 @@
-//! Every struct mirrored in `glsl/shared/layouts.glsl`; `tests/layouts.rs` holds the two equal.
+//! Every struct mirrored in `glsl/shared/layouts.glsl`; `tests/layouts` holds the two equal.
 
 use bytemuck::{Pod, Zeroable};
 

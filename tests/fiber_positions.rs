@@ -12,8 +12,8 @@ use worsted::scene::Scene;
 use worsted::scene::features::Features;
 use worsted::shaders;
 use worsted::vulkan::{
-    Access, Binding, Buffer, ComputePipelineInfo, DescriptorLayout, DescriptorSet, MemoryKind, Pipeline,
-    Resource, VulkanError, vk,
+    Access, Binding, Buffer, ComputePipelineInfo, DescriptorLayout, DescriptorSet, DeviceChoice, MemoryKind,
+    Pipeline, Resource, VulkanError, vk,
 };
 use worsted::yarn::fetch::FiberField;
 use worsted::yarn::fiber::FiberPoint;
@@ -76,7 +76,7 @@ fn ask_device(
     features: &Features,
     queries: &[Query],
 ) -> Result<Vec<Answer>, VulkanError> {
-    let device = shared();
+    let device = shared(DeviceChoice::Auto);
     let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
     let asked = Buffer::upload(device, "queries", storage, queries)?;
     let bytes = size_of::<Answer>() as u64 * queries.len() as u64;
@@ -184,7 +184,7 @@ impl Asked {
         let features = Features::new(&scene.file, &scene.fabrics[0], false);
         let sampling = Sampling::new(1).expect("one sample is allowed");
         let request = Request { size: SIZE, sampling, statistics: false, profile: false };
-        let renderer = Renderer::new(shared(), scene.clone(), request).expect("a renderer");
+        let renderer = Renderer::new(shared(DeviceChoice::Auto), scene.clone(), request).expect("a renderer");
         let clip_from_world = renderer.camera().clip_from_world(SIZE, DVec2::ZERO);
         let queries = queries(&scene);
         let answers = ask_device(&renderer, &features, &queries).expect("answers without validation errors");

@@ -57,10 +57,17 @@ CurvePoint bezier_point(vec3 b[4], float t) {
     return c;
 }
 
-// The same for four control points of any basis.
+// The same for four control points of any basis. Works on offsets from a point of the piece, so that
+// derivatives keep their digits far from the origin.
 CurvePoint curve_point(vec3 p[4], uint basis, float t) {
+    vec3 origin = p[1];
+    for (int k = 0; k < 4; ++k) {
+        p[k] -= origin;
+    }
     bezier_from_basis(p, basis);
-    return bezier_point(p, t);
+    CurvePoint c = bezier_point(p, t);
+    c.position += origin;
+    return c;
 }
 
 #endif

@@ -30,9 +30,14 @@ vec3 direction_or(vec3 v, vec3 fallback) {
     return largest * largest > NO_DIRECTION ? normalize(scaled) : fallback;
 }
 
-// The part of `normal` perpendicular to the unit `tangent`, as a unit vector.
+// The part of `normal` perpendicular to the unit `tangent`, as a unit vector. Where the two are nearly
+// parallel the difference is rounding that may point anywhere, along the tangent too: what is left of
+// its direction after a second subtraction is perpendicular, or too short to be used.
 vec3 normal_perpendicular_to(vec3 tangent, vec3 normal) {
-    return direction_or(normal - tangent * dot(tangent, normal), any_perpendicular(tangent));
+    vec3 some = any_perpendicular(tangent);
+    vec3 n = direction_or(normal - tangent * dot(tangent, normal), some);
+    n -= tangent * dot(tangent, n);
+    return dot(n, n) > 0.5 ? normalize(n) : some;
 }
 
 #endif

@@ -26,7 +26,8 @@ float uniform_from_word(uint word) {
 
 // A standard normal number cut off at three deviations (Box & Muller 1958).
 float normal_from_words(uint a, uint b) {
-    float radius = sqrt(-2.0 * log(uniform_from_word(a)));
+    // A logarithm near 0 may come out positive: Vulkan allows it an error of 2^-21.
+    float radius = sqrt(max(-2.0 * log(uniform_from_word(a)), 0.0));
     return clamp(radius * cos(TWO_PI * uniform_from_word(b)), -3.0, 3.0);
 }
 

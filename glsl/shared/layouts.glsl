@@ -1,4 +1,4 @@
-// Every struct the host writes; twins in src/gpu_types.rs, held equal by tests/layouts.rs.
+// Every struct the host writes; twins in src/gpu_types.rs, held equal by tests/layouts.
 #ifndef WORSTED_LAYOUTS
 #define WORSTED_LAYOUTS
 

@@ -3,13 +3,14 @@
 #define WORSTED_LEVEL
 
 #include "../shared/constants.glsl"
+#include "../lib/angle.glsl"
 #include "../lib/frame.glsl"
 
 // Angle between two directions that may be zero-length: 0 where one has none.
 float turning_angle(vec3 a, vec3 b) {
     vec3 u = direction_or(a, vec3(0.0));
     vec3 v = direction_or(b, vec3(0.0));
-    return atan(length(cross(u, v)), dot(u, v));
+    return angle_of(length(cross(u, v)), dot(u, v));
 }
 
 // Pieces a fiber is cut into over the Bezier piece `b` of yarn, so that no chord departs from the
@@ -32,7 +33,7 @@ uint subdivisions(vec3 b[4], float ply_turns, float fiber_turns, float ply_offse
 // At least `pieces`, and enough that no two vertices are more than a quarter of a period apart: a step
 // must not pass over a whole period.
 uint period_pieces(uint pieces, float periods, uint largest) {
-    return uint(clamp(ceil(4.0 * abs(periods)), float(pieces), float(largest)));
+    return uint(clamp(ceil(4.0 * abs(periods)), float(min(pieces, largest)), float(largest)));
 }
 
 // Distance from `eye` to the nearest control point of `b`, less `margin`, at least `nearest`.

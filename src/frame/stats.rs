@@ -139,7 +139,7 @@ impl Stats {
     /// Counts what must not be in a picture's linear pixels.
     pub fn inspect(&mut self, pixels: &[[f32; 4]]) {
         let bad = |p: &&[f32; 4]| !p.iter().all(|c| c.is_finite());
-        let clamped = |p: &&[f32; 4]| p.iter().any(|c| !(0.0..HALF_MAX).contains(c));
+        let clamped = |p: &&[f32; 4]| p.iter().any(|c| !c.is_nan() && !(0.0..HALF_MAX).contains(c));
         self.nan_pixels = pixels.iter().filter(bad).count() as u64;
         self.clamped_pixels = pixels.iter().filter(clamped).count() as u64;
     }

@@ -1,20 +1,25 @@
 //! Angles of directions about a fiber; twin of `glsl/lib/angle.glsl`.
 
-use super::frame::{any_perpendicular, direction_or};
+use super::frame::normal_perpendicular_to;
 use glam::DVec3;
+
+/// atan2(y, x) in radians, 0 where both are 0.
+pub fn angle_of(y: f64, x: f64) -> f64 {
+    // Adding 0 makes 0 of -0, whose sign would choose between 0 and pi.
+    (y + 0.0).atan2(x + 0.0)
+}
 
 /// theta, in [-pi/2, pi/2]: angle of unit `w` out of the plane perpendicular to the unit `tangent`.
 pub fn longitudinal_angle(tangent: DVec3, w: DVec3) -> f64 {
-    w.dot(tangent).atan2(w.cross(tangent).length())
+    angle_of(w.dot(tangent), w.cross(tangent).length())
 }
 
 /// |cos(phi / 2)|, phi the azimuth between two unit directions about the unit `tangent`. Where a
 /// direction is parallel to the tangent its azimuth is undefined and one fixed perpendicular stands
 /// for it.
 pub fn cos_half_azimuth(tangent: DVec3, a: DVec3, b: DVec3) -> f64 {
-    let some = any_perpendicular(tangent);
-    let u = direction_or(a - tangent * a.dot(tangent), some);
-    let v = direction_or(b - tangent * b.dot(tangent), some);
+    let u = normal_perpendicular_to(tangent, a);
+    let v = normal_perpendicular_to(tangent, b);
     (0.5 * (u + v).length()).min(1.0)
 }
 

@@ -44,9 +44,14 @@ pub fn direction_or(v: DVec3, fallback: DVec3) -> DVec3 {
     if largest * largest > NO_DIRECTION { (v / largest).normalize() } else { fallback }
 }
 
-/// The part of `normal` perpendicular to the unit `tangent`, as a unit vector.
+/// The part of `normal` perpendicular to the unit `tangent`, as a unit vector. Where the two are nearly
+/// parallel the difference is rounding that may point anywhere, along the tangent too: what is left of
+/// its direction after a second subtraction is perpendicular, or too short to be used.
 pub fn normal_perpendicular_to(tangent: DVec3, normal: DVec3) -> DVec3 {
-    direction_or(normal - tangent * tangent.dot(normal), any_perpendicular(tangent))
+    let some = any_perpendicular(tangent);
+    let n = direction_or(normal - tangent * tangent.dot(normal), some);
+    let n = n - tangent * tangent.dot(n);
+    if n.length_squared() > 0.5 { n.normalize() } else { some }
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! How finely a piece of yarn is cut, and whether it is in view; twin of `glsl/yarn/level.glsl`.
 
+use crate::math::angle::angle_of;
 use crate::math::frame::direction_or;
 use glam::{DVec3, DVec4};
 use std::f64::consts::TAU;
@@ -8,7 +9,7 @@ use std::f64::consts::TAU;
 pub fn turning_angle(a: DVec3, b: DVec3) -> f64 {
     let u = direction_or(a, DVec3::ZERO);
     let v = direction_or(b, DVec3::ZERO);
-    u.cross(v).length().atan2(u.dot(v))
+    angle_of(u.cross(v).length(), u.dot(v))
 }
 
 /// What decides how finely a fiber is cut: lengths in mm, rotations over the piece in turns.

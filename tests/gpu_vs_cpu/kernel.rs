@@ -4,8 +4,8 @@ use crate::device::shared;
 use bytemuck::{Pod, Zeroable};
 use worsted::shaders;
 use worsted::vulkan::{
-    Access, Binding, Buffer, ComputePipelineInfo, DescriptorLayout, DescriptorSet, MemoryKind, Pipeline,
-    Resource, SpecializationConstants, VulkanError, vk,
+    Access, Binding, Buffer, ComputePipelineInfo, DescriptorLayout, DescriptorSet, DeviceChoice, MemoryKind,
+    Pipeline, Resource, SpecializationConstants, VulkanError, vk,
 };
 
 /// Push constants of `glsl/test/kernel.glsl`.
@@ -24,7 +24,7 @@ pub fn path(function: &str) -> String {
 
 /// What the function returned for each row of argument words, `result_words` floats each.
 pub fn run(function: &str, rows: &[Vec<u32>], result_words: usize) -> Result<Vec<Vec<f32>>, VulkanError> {
-    let device = shared();
+    let device = shared(DeviceChoice::Auto);
     let input_words = rows.first().map_or(0, Vec::len);
     assert!(rows.iter().all(|row| row.len() == input_words), "{function}: rows differ in length");
     let storage = vk::BufferUsageFlags::STORAGE_BUFFER;

@@ -13,7 +13,7 @@ const FACTOR_FLOOR: f64 = 1e-3;
 pub fn cases() -> Vec<Case> {
     let mut all = vec![bezier_from_basis(), bezier_point(), curve_point()];
     all.extend([unit_from_octahedral(), any_perpendicular(), direction_or(), normal_perpendicular_to()]);
-    all.extend([longitudinal_angle(), cos_half_azimuth(), strip_side(), strip_normal()]);
+    all.extend([angle_of(), longitudinal_angle(), cos_half_azimuth(), strip_side(), strip_normal()]);
     all.extend([tone_neutral(), srgb_from_linear()]);
     all
 }
@@ -183,6 +183,26 @@ fn normal_perpendicular_to() -> Case {
         rows,
         twin: |args| vec![vector("normal", frame::normal_perpendicular_to(args.vec3(), args.vec3()), 1.0)],
         invariant: Some(|args, found| is_unit(found).and_then(|()| is_perpendicular(found, args.vec3()))),
+    }
+}
+
+fn angle_of() -> Case {
+    let mut rows = random_rows("angle_of", |random| {
+        let (sin, cos) = random.between(-std::f64::consts::PI, std::f64::consts::PI).sin_cos();
+        let length = random.magnitude(1e-6, 1e6);
+        row().real(length * sin).real(length * cos).end()
+    });
+    rows.extend(random_rows("angle_of small", |random| {
+        let sign = if random.below(2) == 0 { 1.0 } else { -1.0 };
+        row().real(sign * random.magnitude(1e-9, 1.0)).real(1.0).end()
+    }));
+    let ends = [0.0, -0.0, 1.0, -1.0, 1e-20, -1e20];
+    rows.extend(ends.iter().flat_map(|&y| ends.map(|x| row().real(y).real(x).end())));
+    Case {
+        function: "angle_of",
+        rows,
+        twin: |args| vec![number("angle", angle::angle_of(args.real(), args.real()), 1e-12)],
+        invariant: None,
     }
 }
 

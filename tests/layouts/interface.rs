@@ -7,7 +7,7 @@ use crate::text_of;
 use spirq::ty::DescriptorType;
 use worsted::gpu_types::{Frame, Statistics};
 use worsted::passes::fibers::FibersPass;
-use worsted::vulkan::{Binding, Buffer, MemoryKind, vk};
+use worsted::vulkan::{Binding, Buffer, DeviceChoice, MemoryKind, vk};
 
 /// The Vulkan type of a descriptor that a shader declares.
 fn vulkan_type(kind: &DescriptorType) -> Option<vk::DescriptorType> {
@@ -35,7 +35,7 @@ fn mismatch(descriptor: &Descriptor, sets: &[Vec<Binding>]) -> Option<String> {
 
 /// Sets 0 and 1 as the fiber pass makes them.
 fn fiber_sets() -> Vec<Vec<Binding>> {
-    let device = shared();
+    let device = shared(DeviceChoice::Auto);
     let uniform = vk::BufferUsageFlags::UNIFORM_BUFFER;
     let frame = Buffer::new(device, "frame", size_of::<Frame>() as u64, uniform, MemoryKind::Upload)
         .expect("a small buffer");

@@ -10,8 +10,9 @@ use worsted::io::picture::{DisplayImage, LinearImage};
 use worsted::knit::stockinette::{StockinetteParams, stockinette};
 use worsted::metrics::coverage::Coverage;
 use worsted::scene::Scene;
+use worsted::vulkan::DeviceChoice;
 
-use crate::shared_device::shared_device;
+use crate::device::shared;
 
 /// A swatch of 2 courses of 3 loops.
 pub fn swatch() -> CurveSet {
@@ -54,7 +55,7 @@ pub struct Picture {
 
 /// The picture and its statistics, both sound: no NaN, nothing clamped, no validation error, not empty.
 pub fn draw_counted(scene: Scene, size: [u32; 2], samples: u32, statistics: bool) -> (Picture, Stats) {
-    let device = shared_device();
+    let device = shared(DeviceChoice::Software);
     let sampling = Sampling::new(samples).unwrap();
     let request = Request { size, sampling, statistics, profile: false };
     let mut renderer = Renderer::new(device, scene, request).unwrap();

@@ -2,13 +2,13 @@
 
 #![expect(clippy::unwrap_used, reason = "the helpers of a test may fail it")]
 
+#[path = "../support/device.rs"]
+mod device;
 mod draw;
 #[path = "../support/golden.rs"]
 #[allow(dead_code)]
 mod golden;
 mod invariance;
-#[path = "../support/shared_device.rs"]
-mod shared_device;
 
 use draw::{draw, draw_counted, hook, scene, swatch, yarn};
 use golden::{Tolerance, golden, golden_linear};
