@@ -5,6 +5,9 @@ use bytemuck::{Pod, Zeroable};
 /// Isolines one patch may carry; `FIBERS_PER_PATCH` in `glsl/shared/constants.glsl`.
 pub const FIBERS_PER_PATCH: u32 = 64;
 
+/// Rest length in mm after which the colours of the length view repeat; `LENGTH_STRIPE` there.
+pub const LENGTH_STRIPE: f32 = 10.0;
+
 /// One control point of a yarn.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
@@ -33,16 +36,16 @@ pub struct Segment {
     pub fiber_turns: f32,
     /// Phase of the fibers' radius, in turns.
     pub migration_turns: f32,
-    /// Not used.
-    pub padding2: f32,
+    /// Rest length of the curve before this piece in mm, modulo [`LENGTH_STRIPE`].
+    pub length_start: f32,
     /// Turns of the plies over the piece.
     pub ply_turns_delta: f32,
     /// Turns of the fibers over the piece.
     pub fiber_turns_delta: f32,
     /// Turns of the radius's phase over the piece.
     pub migration_turns_delta: f32,
-    /// Not used.
-    pub padding3: f32,
+    /// Rest length of this piece in mm.
+    pub length_mm: f32,
 }
 
 /// One fiber of the cross-section.

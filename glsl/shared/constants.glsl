@@ -9,4 +9,7 @@ const float TWO_PI = 6.28318530717959;
 // A yarn with more fibers is drawn as several instances of its patches.
 const uint FIBERS_PER_PATCH = 64;
 
+// Rest length in mm after which the colours of the length view repeat.
+const float LENGTH_STRIPE = 10.0;
+
 #endif

@@ -18,11 +18,11 @@ struct Segment {
     float ply_turns;        // ply rotation about the yarn, in turns
     float fiber_turns;      // fiber twist inside the ply frame, in turns
     float migration_turns;  // phase of R, in turns
-    float padding2;
+    float length_start;     // rest length of the curve before this piece, modulo LENGTH_STRIPE
     float ply_turns_delta;
     float fiber_turns_delta;
     float migration_turns_delta;
-    float padding3;
+    float length_mm;        // rest length of this piece
 };
 
 // One fiber of the cross-section: 16 bytes.

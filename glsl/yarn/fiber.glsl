@@ -29,6 +29,7 @@ struct YarnPoint {
 
 struct FiberPoint {
     vec3 yarn_center;
+    vec3 yarn_normal;
     vec3 ply_center;
     vec3 position;
     vec3 tangent;          // unit, along the fiber
@@ -97,6 +98,7 @@ FiberPoint fiber_point(YarnPoint yarn_at, Twist twist, Yarn yarn, Fiber fiber, F
 
     FiberPoint f;
     f.yarn_center = yarn_at.center;
+    f.yarn_normal = yarn_at.normal;
     f.ply_center = yarn_at.center + yarn.ply_offset * normal_ply;
     f.position = yarn_at.center + from_center;
     f.center_distance = length(vec2(away, y));

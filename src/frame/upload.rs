@@ -1,6 +1,6 @@
 //! The scene in the device's words: f64 truth to GPU structs.
 
-use crate::gpu_types::{ControlPoint, Fiber, Frame, Segment, Yarn};
+use crate::gpu_types::{ControlPoint, Fiber, Frame, LENGTH_STRIPE, Segment, Yarn};
 use crate::math::frame::octahedral_from_unit;
 use crate::passes::fibers::FabricBuffers;
 use crate::precompute::occlusion_fit::fit_distance_occlusion;
@@ -41,11 +41,11 @@ fn segment(piece: &Piece, migration_period_count: u32) -> Segment {
         ply_turns: reduced(turns.ply),
         fiber_turns: reduced(turns.fiber),
         migration_turns: reduced(turns.migration),
-        padding2: 0.0,
+        length_start: piece.length_start_mm.rem_euclid(f64::from(LENGTH_STRIPE)) as f32,
         ply_turns_delta: turns.ply.delta as f32,
         fiber_turns_delta: turns.fiber.delta as f32,
         migration_turns_delta: turns.migration.delta as f32,
-        padding3: 0.0,
+        length_mm: piece.length_mm as f32,
     }
 }
 

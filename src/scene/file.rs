@@ -236,6 +236,10 @@ pub enum DebugView {
     Ply = 4,
     /// Migration, loop or hair (Wu & Yuksel 2019, Fig. 4).
     Kind = 5,
+    /// Stripes where the yarn's frame points: its normal red, its binormal green.
+    Frame = 6,
+    /// Rest length along the yarn: the colours repeat every 10 mm, with a dark ring at every one.
+    Length = 7,
 }
 
 /// Accepts `[fabric]` and `[[fabric]]` alike.

@@ -66,6 +66,8 @@ pub struct YarnPoint {
 pub struct FiberPoint {
     /// The yarn's centre at the same t.
     pub yarn_center: DVec3,
+    /// The yarn's unit normal there.
+    pub yarn_normal: DVec3,
     /// The ply's centre at the same t.
     pub ply_center: DVec3,
     /// The fiber's own centre.
@@ -150,6 +152,7 @@ pub fn fiber_point(
         + (rate.y + twist.ply_rate * away) * binormal_ply;
     FiberPoint {
         yarn_center: yarn_at.center,
+        yarn_normal: yarn_at.normal,
         ply_center: yarn_at.center + yarn.ply_offset_mm() * normal_ply,
         position: yarn_at.center + from_center,
         tangent: direction_or(velocity, yarn_at.tangent),

@@ -15,3 +15,4 @@ pub mod ranges;
 pub mod strand;
 pub mod table;
 pub mod transport;
+pub mod zhao;

@@ -229,6 +229,23 @@ mod tests {
     }
 
     #[test]
+    fn a_hundred_kilometres_of_yarn_twist_as_crisply_at_the_end_as_at_the_start() {
+        // Pieces of 5 m: the last one starts after 99,995 m, 20 million turns of this yarn.
+        let mut yarn = presets::yarn("worsted_3ply").unwrap();
+        yarn.ply_pitch_mm = Some(5.0);
+        yarn.fiber_pitch_mm = Some(4.0);
+        yarn.migration_rate = 1.0;
+        let points = (0..=20_000).map(|i| DVec3::X * (f64::from(i) * 5000.0)).collect();
+        let strands = strands(&[Curve { points, closed: false }], Basis::CatmullRom, &yarn, 3);
+        let (first, last) = (&strands.pieces[0].turns, &strands.pieces[19_999].turns);
+        // Whole numbers of turns lie between the two starts.
+        for (a, b) in [(first.ply, last.ply), (first.fiber, last.fiber), (first.migration, last.migration)] {
+            let apart = (b.start - a.start).abs();
+            assert!(apart > 1e7 && (apart - apart.round()).abs() < 1e-6, "{apart}");
+        }
+    }
+
+    #[test]
     fn short_closed_curves_make_at_least_one_turn() {
         assert_eq!(closed_rate(-0.01, 10.0, true), -0.1);
         assert_eq!(closed_rate(0.26, 10.0, true), 0.3);

@@ -2,7 +2,7 @@
 
 use crate::reflection::{self, Reflected};
 use crate::text_of;
-use worsted::gpu_types::FIBERS_PER_PATCH;
+use worsted::gpu_types::{FIBERS_PER_PATCH, LENGTH_STRIPE};
 use worsted::math::curve::Basis;
 use worsted::math::{frame, tone};
 use worsted::scene::features::Features;
@@ -117,7 +117,12 @@ fn plain_constants_are_equal() {
     let files: [(&str, &[(&str, f64)]); 4] = [
         (
             "glsl/shared/constants.glsl",
-            &[("PI", PI), ("TWO_PI", TAU), ("FIBERS_PER_PATCH", f64::from(FIBERS_PER_PATCH))],
+            &[
+                ("PI", PI),
+                ("TWO_PI", TAU),
+                ("FIBERS_PER_PATCH", f64::from(FIBERS_PER_PATCH)),
+                ("LENGTH_STRIPE", f64::from(LENGTH_STRIPE)),
+            ],
         ),
         ("glsl/lib/curve.glsl", &bases),
         ("glsl/lib/frame.glsl", &[("NO_DIRECTION", frame::NO_DIRECTION)]),

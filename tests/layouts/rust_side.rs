@@ -56,11 +56,11 @@ pub fn layouts() -> Vec<Layout> {
             ply_turns,
             fiber_turns,
             migration_turns,
-            padding2,
+            length_start,
             ply_turns_delta,
             fiber_turns_delta,
             migration_turns_delta,
-            padding3
+            length_mm
         }),
         layout!(Fiber { radius, angle, migration_phase, ply }),
         layout!(Yarn {

@@ -7,7 +7,9 @@ use worsted::metrics::coverage::Coverage;
 use worsted::metrics::error::compare;
 use worsted::scene::Scene;
 
-use crate::draw::{center_row, differing, draw, draw_counted, hook, mean_radiance, scene, swatch};
+use crate::draw::{
+    center_row, differing, draw, draw_counted, draw_sparse, hook, mean_radiance, scene, swatch,
+};
 
 const SMALL: [u32; 2] = [96, 72];
 /// Where draws of other sizes may differ: fibers at the same depth, and no more.
@@ -57,6 +59,31 @@ fn the_size_of_draws_does_not_change_a_swatch() {
 fn the_size_of_draws_does_not_change_a_yarn_of_many_fibers() {
     // 3200 fibers, 50 instances of 64, are beyond the CPU device's 65,536 vertices in a few patches.
     any_draw_size_gives_the_same_picture(&hook(), &["yarn.ply_count=8", "yarn.fibers_per_ply=400"]);
+}
+
+#[test]
+fn any_number_of_fibers_is_drawn_the_same_however_it_is_split() {
+    for fibers in [1, 20, 64, 65, 150] {
+        let sets = [format!("yarn.fibers_per_ply={fibers}"), "yarn.ply_count=2".to_owned()];
+        any_draw_size_gives_the_same_picture(&hook(), &[sets[0].as_str(), sets[1].as_str()]);
+    }
+}
+
+#[test]
+fn every_preset_at_every_count_is_finite() {
+    for preset in worsted::yarn::presets::yarn_names() {
+        for (plies, fibers) in [(1, 1), (2, 20), (3, 64), (4, 65), (5, 150), (8, 400)] {
+            let sets = [
+                format!("yarn.preset={preset}"),
+                format!("yarn.ply_count={plies}"),
+                format!("yarn.fibers_per_ply={fibers}"),
+                "fabric.mm_per_unit=0.5".to_owned(),
+            ];
+            let scene = scene(&hook(), &sets.iter().map(String::as_str).collect::<Vec<_>>());
+            let (_, stats) = draw_sparse(scene, [32, 24], 1, true);
+            assert!(stats.fiber_segments.is_some_and(|drawn| drawn > 0), "{sets:?}");
+        }
+    }
 }
 
 #[test]
