@@ -11,6 +11,7 @@ use crate::passes::fibers::FibersPass;
 use crate::passes::resolve::ResolvePass;
 use crate::passes::targets::Targets;
 use crate::passes::tonemap::TonemapPass;
+use crate::precompute::occlusion_fit::fit_distance_occlusion;
 use crate::scene::Scene;
 use crate::scene::camera::Camera;
 use crate::scene::features::Features;
@@ -78,8 +79,11 @@ impl Renderer {
         for fabric in &scene.fabrics {
             let features = Features::new(&scene.file, fabric, request.statistics);
             let started = Instant::now();
-            let buffers = upload::fabric_buffers(device, &scene, fabric, &features)?;
-            stats.add_precompute("fabric", started.elapsed());
+            let occlusion = features.distance_occlusion.then(|| fit_distance_occlusion(&fabric.yarn));
+            if occlusion.is_some() {
+                stats.add_precompute("distance_occlusion", started.elapsed());
+            }
+            let buffers = upload::fabric_buffers(device, &scene, fabric, occlusion)?;
             let plan = DrawPlan::new(
                 fabric.strands.pieces.len() as u32,
                 fabric.yarn.fiber_count(),
@@ -124,7 +128,7 @@ impl Renderer {
         &self.stats
     }
 
-    /// Draws one picture. `progress` is told the share done after every jittered frame.
+    /// Draws one picture. `progress` is told the share done.
     ///
     /// # Errors
     /// Those of the device.
@@ -139,21 +143,38 @@ impl Renderer {
         for (index, &jitter) in jitters.iter().enumerate() {
             let frame = upload::frame(&self.scene, &camera, self.request.size, jitter);
             self.frame.write(0, &[frame])?;
-            let mut work =
-                vec![self.fibers.pass(&self.targets), self.resolve.pass(&self.targets, index, jitters.len())];
-            if index + 1 == jitters.len() {
-                work.push(self.tonemap.pass(&self.targets));
-            }
-            taken += run(&mut self.graph, &self.device, &work, self.request.profile.then_some(&mut passes))?;
+            let timings = self.request.profile.then_some(&mut passes);
+            taken += self.draw_frame(index, jitters.len(), timings, progress)?;
             if index == 0 && self.request.statistics {
                 self.stats.set_counts(self.statistics.read_staged()?);
             }
-            progress((index + 1) as f64 / jitters.len() as f64);
         }
         self.stats.add_frame(taken, passes);
         let picture = self.read_picture()?;
         self.stats.inspect(&picture.linear);
         Ok(picture)
+    }
+
+    /// Draws jittered frame `index` of `count` and adds it to the picture.
+    fn draw_frame(
+        &mut self,
+        index: usize,
+        count: usize,
+        mut timings: Option<&mut HashMap<&'static str, Duration>>,
+        progress: &dyn Fn(f64),
+    ) -> Result<Duration, VulkanError> {
+        let parts = self.fibers.parts(self.scene.file.quality.curves_per_submission);
+        let mut taken = Duration::ZERO;
+        for part in 0..parts {
+            let fibers = self.fibers.pass(&self.targets, part, parts);
+            taken += run(&mut self.graph, &self.device, &[fibers], timings.as_deref_mut())?;
+            progress((index as f64 + (part + 1) as f64 / parts as f64) / count as f64);
+        }
+        let mut finish = vec![self.resolve.pass(&self.targets, index, count)];
+        if index + 1 == count {
+            finish.push(self.tonemap.pass(&self.targets));
+        }
+        Ok(taken + run(&mut self.graph, &self.device, &finish, timings)?)
     }
 
     fn read_picture(&self) -> Result<Picture, VulkanError> {

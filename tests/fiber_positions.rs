@@ -1,27 +1,24 @@
 //! Where the device puts fibers, through the renderer's own buffers and its own GLSL function, against the
 //! f64 twin on the curves as loaded.
 
-use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec2, DVec3, Vec3Swizzles};
 use std::path::{Path, PathBuf};
 use worsted::frame::sampling::Sampling;
 use worsted::frame::{Renderer, Request};
 use worsted::math::rng::Rng;
-use worsted::passes::fibers::specialization;
 use worsted::scene::Scene;
 use worsted::scene::features::Features;
-use worsted::shaders;
-use worsted::vulkan::{
-    Access, Binding, Buffer, ComputePipelineInfo, DescriptorLayout, DescriptorSet, DeviceChoice, MemoryKind,
-    Pipeline, Resource, VulkanError, vk,
-};
+use worsted::vulkan::DeviceChoice;
 use worsted::yarn::fetch::FiberField;
 use worsted::yarn::fiber::FiberPoint;
 use worsted::yarn::period::Kind;
 
 #[path = "support/device.rs"]
 mod device;
+#[path = "support/fiber_points.rs"]
+mod fiber_points;
 use device::shared;
+use fiber_points::{Answer, Query, ask_device};
 
 const SIZE: [u32; 2] = [1280, 960];
 const QUERIES: u64 = 10_000;
@@ -29,27 +26,6 @@ const QUERIES: u64 = 10_000;
 const BOUND_PIXELS: f64 = 0.02;
 /// Largest angle in radians between the tangents.
 const BOUND_RADIANS: f64 = 1e-3;
-
-/// `Query` of `glsl/test/fiber_point.comp`.
-#[derive(Clone, Copy, Pod, Zeroable)]
-#[repr(C)]
-struct Query {
-    segment: u32,
-    fiber: u32,
-    t: f32,
-    padding: u32,
-}
-
-/// `Answer` of `glsl/test/fiber_point.comp`.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-#[repr(C)]
-struct Answer {
-    position: [f32; 3],
-    center_distance: f32,
-    tangent: [f32; 3],
-    /// [`Kind`] of the period.
-    kind: f32,
-}
 
 fn repository() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -68,46 +44,6 @@ fn queries(scene: &Scene) -> Vec<Query> {
             Query { segment, fiber, t, padding: 0 }
         })
         .collect()
-}
-
-/// The device's answers, through sets 0 and 1 as the picture's passes bind them.
-fn ask_device(
-    renderer: &Renderer,
-    features: &Features,
-    queries: &[Query],
-) -> Result<Vec<Answer>, VulkanError> {
-    let device = shared(DeviceChoice::Auto);
-    let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
-    let asked = Buffer::upload(device, "queries", storage, queries)?;
-    let bytes = size_of::<Answer>() as u64 * queries.len() as u64;
-    let answered = Buffer::new(device, "answers", bytes, storage, MemoryKind::Readback)?;
-    let binding = |binding| Binding {
-        binding,
-        kind: vk::DescriptorType::STORAGE_BUFFER,
-        stages: vk::ShaderStageFlags::COMPUTE,
-    };
-    let layout = DescriptorLayout::new(device, "queries", &[binding(0), binding(1)])?;
-    let [frame_layout, fabric_layout] = renderer.fibers_pass().layouts();
-    let info = ComputePipelineInfo {
-        name: "fiber point",
-        spirv: shaders::get("test/fiber_point.comp").expect("the kernel is embedded"),
-        constants: &specialization(features),
-        set_layouts: &[frame_layout, fabric_layout, &layout],
-        push_constant_bytes: 0,
-        cache: None,
-    };
-    let pipeline = Pipeline::compute(device, &info)?;
-    let bound = [(0, Resource::Storage(&asked)), (1, Resource::Storage(&answered))];
-    let set = DescriptorSet::new(&layout, "queries", &bound)?;
-    let [frame_set, fabric_set] = renderer.fibers_pass().sets(0).expect("the scene has a fabric");
-    device.run_once("fiber point", |commands| {
-        commands.bind_pipeline(&pipeline);
-        commands.bind_sets(&pipeline, &[frame_set, fabric_set, &set]);
-        commands.dispatch([(queries.len() as u32).div_ceil(64), 1, 1]);
-        commands.memory_barrier(Access::COMPUTE_WRITE, Access::HOST_READ);
-        Ok(())
-    })?;
-    answered.read()
 }
 
 /// The same from the curves as loaded, all in f64, and what the fiber is there.

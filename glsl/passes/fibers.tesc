@@ -36,8 +36,15 @@ void main() {
 
     uint fiber_count = min(FIBERS_PER_PATCH, yarn.fiber_count - first_fiber[0]);
     float distance_mm = nearest_distance(b, frame.eye_world.xyz, yarn.reach, frame.near_mm);
+    float fiber_reach = yarn.ellipse_long;
+    if (FLYAWAYS) {
+        // Loops and hairs turn about the ply farther out than its other fibers.
+        float hair = yarn.hair_probability > 0.0 ? yarn.hair_start_mean + yarn.hair_gain_mean : 0.0;
+        float loop = yarn.loop_probability > 0.0 ? yarn.loop_radius_mean : 0.0;
+        fiber_reach *= max(1.0, max(hair, loop));
+    }
     uint pieces = subdivisions(b, segment.ply_turns_delta, segment.fiber_turns_delta, yarn.ply_offset,
-                               yarn.ellipse_long, frame.tolerance_per_mm * distance_mm, yarn.max_subdivisions);
+                               fiber_reach, frame.tolerance_per_mm * distance_mm, yarn.max_subdivisions);
     if (FLYAWAYS) {
         pieces = period_pieces(pieces, period_rate(segment, yarn), yarn.max_subdivisions);
     }

@@ -56,7 +56,10 @@ void main() {
     if (FLYAWAYS) {
         StrandVertex vertex;
         f = fetch_fiber_vertex(patch_segment, fiber_index, t, patch_pieces, vertex);
-        joining = ivec4(vertex.entry, vertex.exit, shown(f, vertex.period.kind, vertex.t), int(place));
+        // Beyond its tip a hair's period goes on as a fiber that only migrates.
+        bool migrates = vertex.period.kind == KIND_HAIR && !on_hair(vertex.period, vertex.x);
+        uint kind = migrates ? KIND_MIGRATION : vertex.period.kind;
+        joining = ivec4(vertex.entry, vertex.exit, shown(f, kind, vertex.t), int(place));
     } else {
         Period period;
         f = fetch_fiber_at(patch_segment, fiber_index, t, period);

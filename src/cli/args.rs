@@ -100,6 +100,8 @@ pub struct Knit {
 pub enum Pattern {
     /// Plain jersey, knit flat from one yarn.
     Stockinette(Stockinette),
+    /// Plain jersey knit in the round, each course a closed yarn, its face outward.
+    Tube(Tube),
 }
 
 /// `worsted knit stockinette`.
@@ -111,10 +113,32 @@ pub struct Stockinette {
     /// Loops in a row.
     #[arg(long, default_value_t = 10)]
     pub wales: u32,
+    /// What every pattern takes.
+    #[command(flatten)]
+    pub knitting: Knitting,
+}
+
+/// `worsted knit tube`.
+#[derive(Debug, ClapArgs)]
+pub struct Tube {
+    /// Rounds of loops.
+    #[arg(long, default_value_t = 16)]
+    pub courses: u32,
+    /// Loops around the tube, at least 10.
+    #[arg(long, default_value_t = 24)]
+    pub wales: u32,
+    /// What every pattern takes.
+    #[command(flatten)]
+    pub knitting: Knitting,
+}
+
+/// Options of every pattern.
+#[derive(Debug, ClapArgs)]
+pub struct Knitting {
     /// Outer radius of the yarn in mm; the default preset's when not given.
     #[arg(long, value_name = "MM")]
     pub yarn_radius: Option<f64>,
-    /// Distance between loops of a row in mm.
+    /// Distance between loops of a row in mm; around a tube, at its inside.
     #[arg(long, value_name = "MM")]
     pub wale_spacing: Option<f64>,
     /// Distance between rows in mm.

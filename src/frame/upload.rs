@@ -3,9 +3,7 @@
 use crate::gpu_types::{ControlPoint, Fiber, Frame, LENGTH_STRIPE, Segment, Yarn};
 use crate::math::frame::octahedral_from_unit;
 use crate::passes::fibers::FabricBuffers;
-use crate::precompute::occlusion_fit::fit_distance_occlusion;
 use crate::scene::camera::Camera;
-use crate::scene::features::Features;
 use crate::scene::file::QualityTable;
 use crate::scene::{Fabric, Scene};
 use crate::vulkan::{Buffer, Device, VulkanError, vk};
@@ -67,7 +65,7 @@ pub fn fibers(fabric: &Fabric, seed: u64) -> Vec<Fiber> {
 }
 
 /// What all yarns of a fabric share.
-pub fn yarn(fabric: &Fabric, quality: &QualityTable, features: &Features, seed: u64) -> Yarn {
+pub fn yarn(fabric: &Fabric, quality: &QualityTable, occlusion: Option<DVec4>, seed: u64) -> Yarn {
     let params = &fabric.yarn;
     let flyaways = Flyaways::new(params);
     let spread = |spread: Spread| (spread.mean as f32, spread.deviation as f32);
@@ -76,7 +74,8 @@ pub fn yarn(fabric: &Fabric, quality: &QualityTable, features: &Features, seed: 
     let (hair_gain_mean, hair_gain_sd) = spread(flyaways.hair_gain);
     let (hair_share_mean, hair_share_sd) = spread(flyaways.hair_share);
     let (hair_angle_mean, hair_angle_sd) = spread(flyaways.hair_angle);
-    let occlusion = if features.distance_occlusion { fit_distance_occlusion(params) } else { DVec4::X };
+    // Without occlusion nothing reads it; 1 everywhere is what that means.
+    let occlusion = occlusion.unwrap_or(DVec4::X);
     let [k_r, k_g, k_b] = fabric.fiber.specular;
     let beta = fabric.fiber.specular_width_deg.to_radians();
     Yarn {
@@ -152,7 +151,7 @@ pub fn fabric_buffers(
     device: &Arc<Device>,
     scene: &Scene,
     fabric: &Fabric,
-    features: &Features,
+    occlusion: Option<DVec4>,
 ) -> Result<FabricBuffers, VulkanError> {
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
     Ok(FabricBuffers {
@@ -168,7 +167,7 @@ pub fn fabric_buffers(
             device,
             "yarn parameters",
             usage,
-            &[yarn(fabric, &scene.file.quality, features, scene.file.seed)],
+            &[yarn(fabric, &scene.file.quality, occlusion, scene.file.seed)],
         )?,
     })
 }

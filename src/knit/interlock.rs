@@ -11,11 +11,11 @@ use thiserror::Error;
 use crate::io::curves::CurveSet;
 
 use super::clearance::between;
-use super::fine::{OnYarn, chains, near_pairs};
+use super::fine::{Chain, OnYarn, chains, near_pairs};
 use super::layout::{Layout, LoopPlace};
 
 /// Chords per cubic piece.
-const CHORDS: usize = 8;
+pub(crate) const CHORDS: usize = 8;
 
 /// Two strands that cross when looked at along -Z.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,17 +42,29 @@ pub struct InterlockFault {
 
 /// Every crossing of the curves' projection onto the XY plane.
 pub fn crossings_along_z(curves: &CurveSet) -> Vec<Crossing> {
-    let chains = chains(curves, CHORDS);
-    let chords: Vec<[OnYarn; 2]> =
-        chains.iter().flat_map(|c| c.points.windows(2).map(|p| [p[0], p[1]])).collect();
+    crossings(&chains(curves, CHORDS).iter().flat_map(chords).collect::<Vec<_>>())
+}
+
+/// The chords of one piece.
+pub(crate) fn chords(chain: &Chain) -> impl Iterator<Item = [OnYarn; 2]> + '_ {
+    chain.points.windows(2).map(|p| [p[0], p[1]])
+}
+
+/// Whether one chord goes on where the other ends.
+fn joined(end: &OnYarn, start: &OnYarn) -> bool {
+    let same_place = end.curve == start.curve && end.parameter == start.parameter;
+    same_place || end.position == start.position
+}
+
+/// Every crossing of the chords' projection onto the XY plane.
+pub(crate) fn crossings(chords: &[[OnYarn; 2]]) -> Vec<Crossing> {
     let flat = |p: &OnYarn| p.position.truncate();
     let middles: Vec<_> = chords.iter().map(|[a, b]| (0.5 * (flat(a) + flat(b))).extend(0.0)).collect();
     let longest = chords.iter().fold(1e-9, |m: f64, [a, b]| m.max(flat(a).distance(flat(b))));
     let mut found = Vec::new();
     near_pairs(&middles, longest, |i, j| {
         let (p, q) = (&chords[i], &chords[j]);
-        let touching = p[0].position == q[1].position || p[1].position == q[0].position;
-        if i == j || touching {
+        if i == j || joined(&p[1], &q[0]) || joined(&q[1], &p[0]) {
             return;
         }
         let crossed = segments_cross([flat(&p[0]), flat(&p[1])], [flat(&q[0]), flat(&q[1])]);
@@ -86,9 +98,21 @@ struct Meeting {
 /// side the upper loop's sinker passes behind the lower loop's leg, then its leg comes through to the
 /// front and passes over the lower loop's head.
 pub fn check_interlock(curves: &CurveSet, layout: &Layout) -> Result<(), InterlockFault> {
+    let place = |at: &OnYarn| layout.place(at.parameter);
+    check_stitches(&crossings_along_z(curves), [layout.courses, layout.wales], place)
+}
+
+/// The same for crossings at hand, of so many courses and wales; `place` says which loop a place on the
+/// yarn belongs to.
+pub(crate) fn check_stitches(
+    crossings: &[Crossing],
+    [courses, wales]: [u32; 2],
+    place: impl Fn(&OnYarn) -> Option<LoopPlace>,
+) -> Result<(), InterlockFault> {
+    let place = |at: &OnYarn| place(at).ok_or_else(|| crossing_outside(at));
     let mut sides: BTreeMap<(u32, u32, bool), Vec<Meeting>> = BTreeMap::new();
-    for crossing in crossings_along_z(curves) {
-        let (over, under) = (place(layout, &crossing.over)?, place(layout, &crossing.under)?);
+    for crossing in crossings {
+        let (over, under) = (place(&crossing.over)?, place(&crossing.under)?);
         let (upper, lower) = if over.course > under.course { (over, under) } else { (under, over) };
         let gap = crossing.over.position.z - crossing.under.position.z;
         let proper = upper.course == lower.course + 1
@@ -108,8 +132,8 @@ pub fn check_interlock(curves: &CurveSet, layout: &Layout) -> Result<(), Interlo
         let side = (upper.course, upper.wale, upper.from_head > 0.0);
         sides.entry(side).or_default().push(Meeting { upper_is_over, from_heads });
     }
-    for course in 1..layout.courses {
-        for (wale, right) in (0..layout.wales).flat_map(|w| [(w, false), (w, true)]) {
+    for course in 1..courses {
+        for (wale, right) in (0..wales).flat_map(|w| [(w, false), (w, true)]) {
             check_side(course, wale, sides.get(&(course, wale, right)).map_or(&[], |m| m))?;
         }
     }
@@ -136,12 +160,12 @@ fn check_side(course: u32, wale: u32, meetings: &[Meeting]) -> Result<(), Interl
     Err(InterlockFault { course, wale, expected, found })
 }
 
-/// The loop a place belongs to, or a fault where a turn or a tail crosses something.
-fn place(layout: &Layout, at: &OnYarn) -> Result<LoopPlace, InterlockFault> {
-    layout.place(at.parameter).ok_or_else(|| InterlockFault {
+/// The fault where something that is part of no loop crosses a strand.
+fn crossing_outside(at: &OnYarn) -> InterlockFault {
+    InterlockFault {
         course: 0,
         wale: 0,
         expected: "no crossing at turns and ends",
         found: format!("a crossing at control point {:.2}", at.parameter),
-    })
+    }
 }

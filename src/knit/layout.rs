@@ -58,6 +58,41 @@ impl Layout {
     }
 }
 
+/// The order of a tube's control points: one closed curve per course, from the bottom up, each from the
+/// sinker before wale 0 around to where it began.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TubeLayout {
+    /// Number of courses.
+    pub courses: u32,
+    /// Number of wales around the tube.
+    pub wales: u32,
+    /// Control points of one loop.
+    pub points_per_loop: u32,
+}
+
+impl TubeLayout {
+    /// Control points of one course.
+    pub fn course_points(&self) -> u64 {
+        u64::from(self.wales) * u64::from(self.points_per_loop)
+    }
+
+    /// Control points of the whole tube (at most `u64::MAX`).
+    pub fn point_count(&self) -> u64 {
+        u64::from(self.courses).saturating_mul(self.course_points())
+    }
+
+    /// The loop at `parameter` (counted in control points from the course's first) of a course. A second
+    /// time around wales count on: the loop after the last one is number `wales`. `None` below 0 and above
+    /// the last course.
+    pub fn place(&self, course: usize, parameter: f64) -> Option<LoopPlace> {
+        let course = u32::try_from(course).ok().filter(|course| *course < self.courses)?;
+        let size = f64::from(self.points_per_loop);
+        let wale = (parameter / size).floor();
+        let from_head = parameter - (wale + 0.5) * size;
+        (parameter >= 0.0).then_some(LoopPlace { course, wale: wale as u32, from_head })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -78,5 +113,16 @@ mod tests {
         assert_eq!(at(42.0), Some((2, 0, -4.0)));
         assert_eq!(at(58.5), None);
         assert_eq!(at(500.0), None);
+    }
+    #[test]
+    fn places_of_a_tube_go_around_it() {
+        let l = TubeLayout { courses: 2, wales: 3, points_per_loop: 8 };
+        assert_eq!((l.course_points(), l.point_count()), (24, 48));
+        let at = |course: usize, p: f64| l.place(course, p).map(|x| (x.course, x.wale, x.from_head));
+        assert_eq!(at(0, 0.0), Some((0, 0, -4.0)));
+        assert_eq!(at(1, 21.5), Some((1, 2, 1.5)));
+        assert_eq!(at(1, 25.0), Some((1, 3, -3.0)));
+        assert_eq!(at(0, -0.5), None);
+        assert_eq!(at(2, 1.0), None);
     }
 }

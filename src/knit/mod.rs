@@ -4,6 +4,7 @@ pub mod clearance;
 mod dense;
 pub mod error;
 mod fine;
+mod gauge;
 pub mod interlock;
 pub mod layout;
 mod relax;
@@ -11,4 +12,8 @@ mod selvedge;
 pub mod stockinette;
 #[cfg(test)]
 mod stockinette_tests;
+pub mod tube;
+#[cfg(test)]
+mod tube_tests;
 mod unit_cell;
+pub mod unrolled;

@@ -1,9 +1,10 @@
 //! Stockinette (plain jersey) knit flat from one serpentine yarn.
 //!
 //! One loop of the endless cloth is relaxed until its strands rest on each other (`unit_cell.rs`), half
-//! circles join the courses at the edges (`selvedge.rs`), and a swatch of any size repeats the two. The cloth lies in the XY plane,
-//! courses along X and wales along Y, centred at the origin, its technical face (the V stitches)
-//! toward +Z. The last course is off the needle, not bound off, as the first is not cast on.
+//! circles join the courses at the edges (`selvedge.rs`), and a swatch of any size repeats the two. The
+//! cloth lies in the XY plane, courses along X and wales along Y, centred at the origin, its technical face
+//! (the V stitches) toward +Z. The last course is off the needle, not bound off, as the first is not cast
+//! on.
 //!
 //! Gauge. A loop that just touches itself and its neighbours needs about 4.1 yarn diameters from wale to
 //! wale and 2.2 from course to course, whatever the other spacing is: Peirce's jammed cloth of round
@@ -19,30 +20,17 @@ use glam::DVec3;
 use crate::io::curves::{Basis, Curve, CurveSet, UpAxis};
 
 use super::error::KnitError;
+use super::gauge::{Gauge, check_counts, check_size};
 use super::interlock::check_interlock;
 use super::layout::Layout;
 use super::selvedge::{Turn, turn};
-use super::unit_cell::{ARC_SKIP, UnitCell, unit_cell};
+use super::unit_cell::UnitCell;
 
 /// Centre lines keep at least this part of two yarn radii from each other.
 pub const KEPT_DISTANCE: f64 = 0.995;
 
-/// Allowed wale spacing, in yarn diameters.
-const WALE_DIAMETERS: [f64; 2] = [4.15, 6.5];
-/// Allowed course spacing, in yarn diameters.
-const COURSE_DIAMETERS: [f64; 2] = [2.2, 4.5];
-/// Wale and course spacing where none is given, in yarn diameters.
-const DEFAULT_DIAMETERS: [f64; 2] = [4.2, 2.9];
-/// Outer radii of real yarns lie well inside, in millimetres.
-const RADIUS_MM: [f64; 2] = [0.001, 1000.0];
-/// Fewer control points cut the bends off, more only cost.
-const POINTS_PER_LOOP: [u32; 2] = [16, 64];
-/// Control points of the whole swatch: 400 MB of them.
-const MOST_POINTS: u64 = 1 << 24;
 /// Control points of a loose end.
 const TAIL_POINTS: u32 = 2;
-/// A spacing short of its limit by no more than this part of it is taken as the limit itself.
-const ROUNDING: f64 = 1e-9;
 
 /// What to knit.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,89 +63,41 @@ impl Default for StockinetteParams {
     }
 }
 
-/// Refuses a value outside `[low, high]`, NaN included.
-fn check_range(name: &'static str, value: f64, [low, high]: [f64; 2], unit: &str) -> Result<(), KnitError> {
-    if value >= low * (1.0 - ROUNDING) && value <= high * (1.0 + ROUNDING) {
-        return Ok(());
-    }
-    let expected = format!("{low} to {high} {unit}");
-    Err(KnitError::Parameter { name, expected, found: format!("{value}") })
-}
-
 impl StockinetteParams {
     /// Checks every parameter against its range.
     ///
     /// # Errors
     /// The first parameter outside its range, with the range in millimetres at this yarn radius.
     pub fn validate(&self) -> Result<(), KnitError> {
-        let [least, most] = POINTS_PER_LOOP;
-        check_range("yarn_radius_mm", self.yarn_radius_mm, RADIUS_MM, "mm")?;
-        for (name, count) in [("courses", self.courses), ("wales", self.wales)] {
-            if count == 0 {
-                let expected = "at least 1".to_owned();
-                return Err(KnitError::Parameter { name, expected, found: "0".to_owned() });
-            }
-        }
-        if !(least..=most).contains(&self.points_per_loop) || !self.points_per_loop.is_multiple_of(4) {
-            return Err(KnitError::Parameter {
-                name: "points_per_loop",
-                expected: format!("a multiple of 4 from {least} to {most}"),
-                found: self.points_per_loop.to_string(),
-            });
-        }
-        self.check_spacing("wale_spacing_mm", self.wale_spacing_mm, WALE_DIAMETERS)?;
-        self.check_spacing("course_spacing_mm", self.course_spacing_mm, COURSE_DIAMETERS)?;
-        let points = self.layout().point_count();
-        if points > MOST_POINTS {
-            return Err(KnitError::Parameter {
-                name: "courses and wales",
-                expected: format!("a swatch of at most {MOST_POINTS} control points"),
-                found: format!("{} courses of {} loops, {points} control points", self.courses, self.wales),
-            });
-        }
-        Ok(())
+        let counts = [self.courses, self.wales];
+        check_counts(counts, [1, 1])?;
+        self.gauge().validate()?;
+        check_size(self.layout().point_count(), counts, "swatch")
     }
 
-    /// Refuses a spacing outside its range of yarn diameters.
-    fn check_spacing(
-        &self,
-        name: &'static str,
-        mm: Option<f64>,
-        diameters: [f64; 2],
-    ) -> Result<(), KnitError> {
-        let diameter_mm = 2.0 * self.yarn_radius_mm;
-        let Some(found_mm) = mm else { return Ok(()) };
-        let smallest_mm = diameters[0] * diameter_mm;
-        if found_mm < smallest_mm * (1.0 - ROUNDING) {
-            let yarn_radius_mm = self.yarn_radius_mm;
-            return Err(KnitError::TooTight { name, smallest_mm, found_mm, yarn_radius_mm });
+    fn gauge(&self) -> Gauge {
+        Gauge {
+            yarn_radius_mm: self.yarn_radius_mm,
+            wale_spacing_mm: self.wale_spacing_mm,
+            course_spacing_mm: self.course_spacing_mm,
+            points_per_loop: self.points_per_loop,
         }
-        let range_mm = diameters.map(|d| d * diameter_mm);
-        check_range(name, found_mm, range_mm, &format!("mm at yarn_radius_mm = {}", self.yarn_radius_mm))
-    }
-
-    /// Wale and course spacing in yarn diameters.
-    fn gauge_diameters(&self) -> [f64; 2] {
-        let diameter_mm = 2.0 * self.yarn_radius_mm;
-        let [wale, course] = DEFAULT_DIAMETERS;
-        let of = |mm: Option<f64>, default| mm.map_or(default, |mm| mm / diameter_mm);
-        [of(self.wale_spacing_mm, wale), of(self.course_spacing_mm, course)]
     }
 
     /// Wale and course spacing in millimetres, defaults filled in.
     pub fn spacing_mm(&self) -> [f64; 2] {
-        self.gauge_diameters().map(|d| d * 2.0 * self.yarn_radius_mm)
+        self.gauge().spacing_mm()
     }
 
     /// Arc length along the yarn, in millimetres, within which two places are neighbours and not
     /// distinct strands: what [`super::clearance::min_clearance`] should skip.
     pub fn arc_skip_mm(&self) -> f64 {
-        ARC_SKIP * 2.0 * self.yarn_radius_mm
+        self.gauge().arc_skip_mm()
     }
 
     /// Which control points belong to which loop.
     pub fn layout(&self) -> Layout {
-        let [wale, course] = self.gauge_diameters();
+        let [wale, course] = self.gauge().spacing_diameters();
         // Peirce's loop length, 2 C + W + 5.94 diameters, says how many of a loop's points a half circle
         // from course to course deserves.
         let share = 0.5 * std::f64::consts::PI * course / (2.0 * course + wale + 5.94);
@@ -179,27 +119,19 @@ impl StockinetteParams {
 /// allowed range fail to relax to a cloth whose strands keep clear of each other.
 pub fn stockinette(params: &StockinetteParams) -> Result<CurveSet, KnitError> {
     params.validate()?;
-    let [wale_spacing, course_spacing] = params.gauge_diameters();
-    let layout = params.layout();
-    let cell = unit_cell(wale_spacing, course_spacing, params.points_per_loop as usize / 4);
+    let (gauge, layout) = (params.gauge(), params.layout());
+    let cell = gauge.cell();
     let turn = turn(&cell, layout.turn_points as usize);
     if !(cell.is_sound() && turn.is_sound()) {
-        let clearance = cell.clearance.min(turn.clearance);
-        let reason = format!("strands come within {clearance:.4} yarn diameters of each other");
-        return Err(unsound(params, reason));
+        return Err(gauge.too_close(cell.clearance.min(turn.clearance)));
     }
     // A corner of the swatch holds every kind of stitch and turn.
     let corner = Layout { courses: layout.courses.min(4), wales: layout.wales.min(3), ..layout };
     let sample = one_yarn(swatch(&cell, &turn, &corner));
-    check_interlock(&sample, &corner).map_err(|fault| unsound(params, fault.to_string()))?;
+    check_interlock(&sample, &corner).map_err(|fault| gauge.unsound(fault.to_string()))?;
     let mut points = swatch(&cell, &turn, &layout);
-    points.iter_mut().for_each(|p| *p *= 2.0 * params.yarn_radius_mm);
+    points.iter_mut().for_each(|p| *p *= gauge.diameter_mm());
     Ok(one_yarn(points))
-}
-
-fn unsound(params: &StockinetteParams, reason: String) -> KnitError {
-    let [wale_spacing_mm, course_spacing_mm] = params.spacing_mm();
-    KnitError::Unsound { wale_spacing_mm, course_spacing_mm, reason }
 }
 
 fn one_yarn(points: Vec<DVec3>) -> CurveSet {

@@ -26,6 +26,7 @@ pub struct Draw {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DrawPlan {
     patches: u32,
+    fibers: u32,
     groups: u32,
     patches_per_draw: u32,
     groups_per_draw: u32,
@@ -40,6 +41,7 @@ impl DrawPlan {
         let default = if is_cpu { CPU_PATCHES_PER_DRAW } else { GPU_PATCHES_PER_DRAW };
         let mut plan = Self {
             patches,
+            fibers,
             groups,
             patches_per_draw: asked.unwrap_or(default).max(1),
             groups_per_draw: groups,
@@ -51,6 +53,11 @@ impl DrawPlan {
             plan.patches_per_draw = plan.patches_per_draw.min((patch_groups / plan.groups_per_draw).max(1));
         }
         plan
+    }
+
+    /// Fiber curves of all draws together.
+    pub fn curves(&self) -> u64 {
+        u64::from(self.patches) * u64::from(self.fibers)
     }
 
     /// The draws, in an order that does not depend on their size: patch by patch.

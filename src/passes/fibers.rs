@@ -6,11 +6,12 @@ use super::targets::{DEPTH_FORMAT, RADIANCE_FORMAT, Targets};
 use crate::graph::{Pass, Use};
 use crate::scene::features::Features;
 use crate::vulkan::{
-    Access, Binding, Buffer, ColorTarget, DepthState, DepthTarget, DescriptorLayout, DescriptorSet, Device,
-    GraphicsPipelineInfo, ImageState, Pipeline, Rendering, Resource, ShaderStage, SpecializationConstants,
-    VulkanError, vk,
+    Access, Binding, Buffer, ColorTarget, Commands, DepthState, DepthTarget, DescriptorLayout, DescriptorSet,
+    Device, GraphicsPipelineInfo, Image, ImageState, Pipeline, Rendering, Resource, ShaderStage,
+    SpecializationConstants, VulkanError, vk,
 };
 use std::collections::HashMap;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Stages that read a fabric's buffers; compute stands for the test kernels, which share the layout.
@@ -154,41 +155,74 @@ impl FibersPass {
         )
     }
 
-    /// Draws every fabric into the targets' frame.
-    pub fn pass<'a>(&'a self, targets: &'a Targets) -> Pass<'a> {
+    /// How many passes a frame is drawn in, so that none draws many more than `curves` fiber curves:
+    /// between them a user hears of progress, and a device's watchdog is content.
+    pub fn parts(&self, curves: u64) -> usize {
+        let total: u64 = self.fabrics.iter().map(|fabric| fabric.plan.curves()).sum();
+        usize::try_from(total.div_ceil(curves.max(1)))
+            .unwrap_or(usize::MAX)
+            .clamp(1, self.draw_count().max(1))
+    }
+
+    fn draw_count(&self) -> usize {
+        self.fabrics.iter().map(|fabric| fabric.plan.draws().count()).sum()
+    }
+
+    /// Draws the `part`-th of `parts` equal parts of all fabrics into the targets' frame. The first part
+    /// clears it, the last one averages its samples.
+    pub fn pass<'a>(&'a self, targets: &'a Targets, part: usize, parts: usize) -> Pass<'a> {
+        let (first, last) = (part == 0, part + 1 == parts);
         let color = targets.multisampled.as_ref().unwrap_or(&targets.frame);
+        let begun = |image, state| if first { Use::Discard(image, state) } else { Use::Image(image, state) };
         let mut uses = vec![
-            Use::Discard(color, ImageState::COLOR_TARGET),
-            Use::Discard(&targets.depth, ImageState::DEPTH_TARGET),
+            begun(color, ImageState::COLOR_TARGET),
+            begun(&targets.depth, ImageState::DEPTH_TARGET),
             Use::Buffer(&self.frame, Access::GRAPHICS_READ),
             Use::Buffer(&self.statistics, COUNTING),
         ];
-        if targets.multisampled.is_some() {
-            uses.push(Use::Discard(&targets.frame, ImageState::COLOR_TARGET));
+        let resolved = targets.multisampled.as_ref().filter(|_| last).map(|_| &targets.frame);
+        if let Some(frame) = resolved {
+            uses.push(Use::Discard(frame, ImageState::COLOR_TARGET));
         }
-        let record = move |commands: &crate::vulkan::Commands<'_>| {
+        let draws = self.draw_count();
+        let range = draws * part / parts..draws * (part + 1) / parts;
+        let record = move |commands: &Commands<'_>| {
             let rendering = Rendering {
                 extent: targets.size,
                 color: &[ColorTarget {
                     view: color.view(),
-                    resolve: targets.multisampled.as_ref().map(|_| targets.frame.view()),
-                    clear: Some([0.0; 4]),
-                    store: targets.multisampled.is_none(),
+                    resolve: resolved.map(Image::view),
+                    clear: first.then_some([0.0; 4]),
+                    store: !last || targets.multisampled.is_none(),
                 }],
-                depth: Some(DepthTarget { view: targets.depth.view(), clear: Some(0.0), store: false }),
+                depth: Some(DepthTarget {
+                    view: targets.depth.view(),
+                    clear: first.then_some(0.0),
+                    store: !last,
+                }),
             };
-            commands
-                .render(&rendering, || self.fabrics.iter().for_each(|fabric| self.draw(commands, fabric)));
+            commands.render(&rendering, || self.draw(commands, range.clone()));
             Ok(())
         };
         Pass { name: "fibers", uses, record: Box::new(record) }
     }
 
-    fn draw(&self, commands: &crate::vulkan::Commands<'_>, fabric: &FabricDraw) {
-        commands.bind_pipeline(&fabric.pipeline);
-        commands.bind_sets(&fabric.pipeline, &[&self.frame_set, &fabric.set]);
-        for draw in fabric.plan.draws() {
-            commands.draw(draw.patches, draw.groups, draw.first_patch, draw.first_group);
+    /// Records the draws whose place among those of all fabrics lies in `range`.
+    fn draw(&self, commands: &Commands<'_>, range: Range<usize>) {
+        let mut before = 0;
+        for fabric in &self.fabrics {
+            let count = fabric.plan.draws().count();
+            let start = range.start.clamp(before, before + count) - before;
+            let end = range.end.clamp(before, before + count) - before;
+            before += count;
+            if start == end {
+                continue;
+            }
+            commands.bind_pipeline(&fabric.pipeline);
+            commands.bind_sets(&fabric.pipeline, &[&self.frame_set, &fabric.set]);
+            for draw in fabric.plan.draws().take(end).skip(start) {
+                commands.draw(draw.patches, draw.groups, draw.first_patch, draw.first_group);
+            }
         }
     }
 }

@@ -187,11 +187,19 @@ pub struct QualityTable {
     pub max_subdivisions: u32,
     /// Patches per draw call; the device's own limit when absent.
     pub patches_per_draw: Option<u32>,
+    /// Fiber curves handed to the device at once, at least 1: between them a user hears of progress.
+    pub curves_per_submission: u64,
 }
 
 impl Default for QualityTable {
     fn default() -> Self {
-        Self { culling: true, subdivision_tolerance_px: 0.2, max_subdivisions: 32, patches_per_draw: None }
+        Self {
+            culling: true,
+            subdivision_tolerance_px: 0.2,
+            max_subdivisions: 32,
+            patches_per_draw: None,
+            curves_per_submission: 2_000_000,
+        }
     }
 }
 

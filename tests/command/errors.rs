@@ -187,6 +187,19 @@ fn fabric_that_cannot_be_knit_is_refused() {
     ] {
         place.refuses(&["knit", "stockinette", option, value, "-o", "x.bcc"], 2, &[expected, "expected"]);
     }
+    for (option, value, expected) in [
+        ("--courses", "0", "courses: expected at least 1, found 0"),
+        ("--wales", "9", "wales: expected at least 10, found 9"),
+        ("--wales", "4294967295", "wales: expected a tube of at most"),
+        ("--wale-spacing", "0.5", "wale_spacing_mm: expected at least"),
+        ("--yarn-radius", "nan", "yarn_radius_mm: expected"),
+        ("--points-per-loop", "17", "points_per_loop: expected"),
+    ] {
+        place.refuses(&["knit", "tube", option, value, "-o", "x.bcc"], 2, &[expected]);
+    }
+    place.refuses(&["knit", "tube", "--courses=-1", "-o", "x.bcc"], 2, &["--courses"]);
+    place.refuses(&["knit", "tube", "-o", "x.png"], 2, &["x.png", ".bcc"]);
+    assert!(place.contents().is_empty());
 }
 
 #[test]

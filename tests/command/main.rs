@@ -187,6 +187,20 @@ fn knitted_fabric_is_read_back() {
 }
 
 #[test]
+fn a_knitted_tube_is_closed_and_read_back() {
+    let place = Workplace::new();
+    let knit = ["knit", "tube", "--courses", "4", "--wales", "10", "--yarn-radius", "0.5"];
+    let spacings = ["--wale-spacing", "4.3", "--course-spacing", "3", "--points-per-loop", "16"];
+    assert_good(&place.run(&[&knit[..], &spacings, &["-o", "t.bcc"]].concat()));
+    let info = place.run(&["info", "t.bcc"]);
+    assert_good(&info);
+    let said = String::from_utf8(info.stdout).unwrap();
+    for line in ["format: BCC, CatmullRom", "up axis: Y", "curves: 4 (4 closed, 0 open)", "points: 640"] {
+        assert!(said.contains(line), "expected {line:?}: {said}");
+    }
+}
+
+#[test]
 fn info_says_what_was_repaired() {
     let place = Workplace::new();
     // A doubled point, and a strand of one point besides.
@@ -216,7 +230,9 @@ fn doctor_finds_the_device_good() {
 #[test]
 fn every_command_has_help() {
     let place = Workplace::new();
-    for command in [&[][..], &["render"], &["knit"], &["knit", "stockinette"], &["info"], &["doctor"]] {
+    for command in
+        [&[][..], &["render"], &["knit"], &["knit", "stockinette"], &["knit", "tube"], &["info"], &["doctor"]]
+    {
         let output = place.run(&[command, &["--help"]].concat());
         assert_good(&output);
         let said = String::from_utf8(output.stdout).unwrap();

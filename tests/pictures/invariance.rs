@@ -70,6 +70,18 @@ fn any_number_of_fibers_is_drawn_the_same_however_it_is_split() {
 }
 
 #[test]
+fn the_size_of_submissions_does_not_change_a_picture() {
+    for samples in [1, 4, 16] {
+        let whole = draw(scene(&swatch(), &[]), SMALL, samples).linear;
+        for curves in [1, 1000, 20_000] {
+            let set = format!("quality.curves_per_submission={curves}");
+            let parts = draw(scene(&swatch(), &[&set]), SMALL, samples).linear;
+            assert_eq!(differing(&parts, &whole), 0, "{curves} curves, {samples} samples");
+        }
+    }
+}
+
+#[test]
 fn every_preset_at_every_count_is_finite() {
     for preset in worsted::yarn::presets::yarn_names() {
         for (plies, fibers) in [(1, 1), (2, 20), (3, 64), (4, 65), (5, 150), (8, 400)] {
