@@ -37,9 +37,9 @@ bool is_broken(int exit, int entry) {
 
 // If the fiber, walking from `u` to `u_neighbour` (in period turns), meets the tip of a hair of the
 // period `index` coming from outside the hair, gives where; else `u`.
-bool meets_tip(Segment segment, uint fiber_index, int index, float u, float u_neighbour, Yarn yarn,
+bool meets_tip(Segment segment, Fiber fiber, uint fiber_index, int index, float u, float u_neighbour, Yarn yarn,
                out Period period, out float tip) {
-    period = draw_period(segment, fiber_index, index, yarn);
+    period = draw_period(segment, fiber, fiber_index, index, yarn);
     tip = float(index - period_base(segment, yarn)) + hair_cut(period);
     if (period.kind != KIND_HAIR) {
         return false;
@@ -67,7 +67,7 @@ StrandVertex strand_vertex(Segment segment, Fiber fiber, uint fiber_index, float
         for (int k = 0; k < (own == other ? 1 : 2); ++k) {
             Period period;
             float tip;
-            if (meets_tip(segment, fiber_index, k == 0 ? own : other, u, u_neighbour, yarn, period, tip)) {
+            if (meets_tip(segment, fiber, fiber_index, k == 0 ? own : other, u, u_neighbour, yarn, period, tip)) {
                 vertex.t = t + (tip - u) / rate;
                 vertex.period = period;
                 vertex.x = hair_cut(period);
@@ -76,7 +76,7 @@ StrandVertex strand_vertex(Segment segment, Fiber fiber, uint fiber_index, float
             }
         }
     }
-    vertex.period = draw_period(segment, fiber_index, base + int(floor(u)), yarn);
+    vertex.period = draw_period(segment, fiber, fiber_index, base + int(floor(u)), yarn);
     vertex.x = fract(u);
     mark(vertex, cut_side(vertex.period, vertex.x), rate);
     return vertex;

@@ -37,7 +37,7 @@ FiberPoint fetch_fiber_at(uint segment_index, uint fiber_index, float t, out Per
         return fetch_fiber_point(segment, fiber, t, migration_shape(fiber, twist.migration, twist.migration_rate, yarn));
     }
     float u = period_turns(segment, fiber, t, yarn);
-    period = draw_period(segment, fiber_index, period_base(segment, yarn) + int(floor(u)), yarn);
+    period = draw_period(segment, fiber, fiber_index, period_base(segment, yarn) + int(floor(u)), yarn);
     FiberShape shape = period_shape(fiber, period, fract(u), period_rate(segment, yarn), yarn);
     return fetch_fiber_point(segment, fiber, t, shape);
 }

@@ -15,6 +15,8 @@ const uint KIND_HAIR = 2;
 // A hair takes at least a visible part of its period, and leaves some of it to the fiber it broke from.
 const float HAIR_SHARE_MIN = 0.02;
 const float HAIR_SHARE_MAX = 0.9;
+// Most by which a hair's line is lengthened inward: a tip that barely leaves the ply has no slope.
+const float HAIR_INWARD_MAX = 4.0;
 
 // One period of one fiber. Loops and hairs are drawn for each period: from a minimum of R to the next,
 // or an equal part of that where a slow migration would hold more than one (`periods_per_migration`).
@@ -63,25 +65,30 @@ float draw_positive(uvec3 words, float mean, float deviation) {
     return max(value, 0.0);
 }
 
-// Draws the hair of a period from three random words.
-void draw_hair(inout Period period, uvec3 words, Yarn yarn) {
+// Draws the hair of a period of a fiber with R_i = `fiber_radius` from three random words. The
+// statistics state a hair from where it leaves the ply; its line goes on inward at the same slopes to
+// its root at the fiber's R_min, so that it is longer and turns farther by the same ratio.
+void draw_hair(inout Period period, uvec3 words, float fiber_radius, Yarn yarn) {
     uvec4 a = hash_words(uvec4(words, 0u));
     uvec4 b = hash_words(uvec4(words, 9u));
     float start = yarn.hair_start_mean + yarn.hair_start_sd * normal_from_words(a.x, a.y);
-    period.reach = start + draw_positive(a.yzw, yarn.hair_gain_mean, yarn.hair_gain_sd);
-    period.share = clamp(draw_positive(b.yzw, yarn.hair_share_mean, yarn.hair_share_sd),
+    float gain = draw_positive(a.yzw, yarn.hair_gain_mean, yarn.hair_gain_sd);
+    period.reach = start + gain;
+    float root = fiber_radius * yarn.migration_min;
+    float whole_line = clamp((period.reach - root) / max(gain, 1e-6), 1.0, HAIR_INWARD_MAX);
+    period.share = clamp(whole_line * draw_positive(b.yzw, yarn.hair_share_mean, yarn.hair_share_sd),
                          HAIR_SHARE_MIN, HAIR_SHARE_MAX);
     // From root to tip along the fiber's own twist, or against it.
     float turned = (period.root_first ? TWO_PI : -TWO_PI) * period.share;
     float whole = yarn.hair_turns_per_period > 0.0
         ? turned * yarn.hair_turns_per_period
-        : yarn.hair_angle_mean + yarn.hair_angle_sd * normal_from_words(b.x, a.z);
+        : whole_line * (yarn.hair_angle_mean + yarn.hair_angle_sd * normal_from_words(b.x, a.z));
     period.twist = whole - turned * yarn.fiber_turns_per_period;
 }
 
 // Draws what the fiber is in the period `index` of the segment's curve. Wu & Yuksel 2019, Sec. 3.1;
 // statistics of Zhao et al. 2016.
-Period draw_period(Segment segment, uint fiber_index, int index, Yarn yarn) {
+Period draw_period(Segment segment, Fiber fiber, uint fiber_index, int index, Yarn yarn) {
     uint identity = uint(period_identity(segment, index, yarn));
     uvec4 a = hash_words(uvec4(segment.curve, identity, fiber_index, yarn.seed));
     float chance = uniform_from_word(a.x);
@@ -96,7 +103,7 @@ Period draw_period(Segment segment, uint fiber_index, int index, Yarn yarn) {
     if (period.kind == KIND_LOOP) {
         period.reach = yarn.loop_radius_mean + yarn.loop_radius_sd * normal_from_words(a.z, a.w);
     } else if (period.kind == KIND_HAIR) {
-        draw_hair(period, a.yzw, yarn);
+        draw_hair(period, a.yzw, fiber.radius, yarn);
     }
     return period;
 }

@@ -64,7 +64,7 @@ pub fn strand_vertex(
     periods: &CurvePeriods,
     flyaways: &Flyaways,
 ) -> StrandVertex {
-    let draw = |u: f64| draw_period(periods, fiber_index, u.floor() as i32, flyaways);
+    let draw = |u: f64| draw_period(periods, fiber, fiber_index, u.floor() as i32, flyaways);
     let (u, rate) = (period_turns(turns, fiber, t, flyaways), period_rate(turns, flyaways));
     for side in [-1.0, 1.0] {
         let t_neighbour = t + side / f64::from(pieces);
@@ -157,7 +157,7 @@ mod tests {
             let u = |t: f64| period_turns(&turns(5.2, delta), &fiber, t, &flyaways);
             let (low, high) = (u(0.0).min(u(2.0)), u(0.0).max(u(2.0)));
             let expected = (low.floor() as i32..=high.floor() as i32)
-                .map(|k| draw_period(&PERIODS, fiber_index, k, &flyaways))
+                .map(|k| draw_period(&PERIODS, &fiber, fiber_index, k, &flyaways))
                 .filter(|p| p.kind == Kind::Hair)
                 .filter(|p| (low..high).contains(&(f64::from(p.index) + hair_cut(p))))
                 .count();

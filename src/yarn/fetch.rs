@@ -56,7 +56,8 @@ impl FiberField {
         let fiber = &self.fibers[fiber_index];
         let u = period_turns(&piece.turns, fiber, t, &self.flyaways);
         let index = u.floor();
-        let period = draw_period(&self.periods(piece), fiber_index as u32, index as i32, &self.flyaways);
+        let period =
+            draw_period(&self.periods(piece), fiber, fiber_index as u32, index as i32, &self.flyaways);
         let shape = self.shape(piece, fiber, &period, u - index);
         (self.fiber_point(piece, fiber, t, &shape), period)
     }
@@ -157,7 +158,8 @@ mod tests {
             let mut counts = [0.0; 3];
             for index in 0..field.fibers.len() as u32 {
                 for k in 0..periods {
-                    counts[draw_period(&lookup, index, k, &field.flyaways).kind as usize] += 1.0;
+                    counts[draw_period(&lookup, &field.fibers[index as usize], index, k, &field.flyaways).kind
+                        as usize] += 1.0;
                 }
             }
             let covered_mm = f64::from(periods) / per_mm * f64::from(yarn.ply_count);

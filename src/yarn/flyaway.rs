@@ -33,6 +33,8 @@ pub struct Flyaways {
     pub fiber_turns_per_period: f64,
     /// Share of the hair's length over which it tapers to a point.
     pub hair_taper: f64,
+    /// R_min: the share of its radius at which a fiber's hairs have their roots.
+    pub migration_min: f64,
     /// Equal parts of a migration for each of which loops and hairs are drawn; 1 unless a migration is so
     /// slow that it would hold several.
     pub periods_per_migration: u32,
@@ -74,6 +76,7 @@ impl Flyaways {
             hair_turns_per_period: per_period(yarn.hair_pitch_mm),
             fiber_turns_per_period: per_period(yarn.fiber_pitch_mm),
             hair_taper: yarn.hair_taper,
+            migration_min: yarn.migration_min,
             periods_per_migration: periods as u32,
             reach_mm: yarn.outer_radius_mm(),
         };

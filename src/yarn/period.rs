@@ -23,6 +23,8 @@ pub enum Kind {
 /// A hair takes at least a visible part of its period, and leaves some of it to the fiber it broke from.
 const HAIR_SHARE_MIN: f64 = 0.02;
 const HAIR_SHARE_MAX: f64 = 0.9;
+/// Most by which a hair's line is lengthened inward: a tip that barely leaves the ply has no slope.
+const HAIR_INWARD_MAX: f64 = 4.0;
 
 /// What the periods of one curve have in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,27 +97,39 @@ pub fn draw_positive(words: [u32; 3], spread: Spread) -> f64 {
     (1..=8).map(draw).find(|value| *value > 0.0).unwrap_or(0.0)
 }
 
-/// Draws the hair of a period from three random words.
-pub fn draw_hair(period: &mut Period, words: [u32; 3], flyaways: &Flyaways) {
+/// Draws the hair of a period of a fiber with R_i = `fiber_radius` from three random words. The
+/// statistics state a hair from where it leaves the ply; its line goes on inward at the same slopes to
+/// its root at the fiber's R_min, so that it is longer and turns farther by the same ratio.
+pub fn draw_hair(period: &mut Period, words: [u32; 3], fiber_radius: f64, flyaways: &Flyaways) {
     let a = hash_words([words[0], words[1], words[2], 0]);
     let b = hash_words([words[0], words[1], words[2], 9]);
     let start = flyaways.hair_start.mean + flyaways.hair_start.deviation * normal_from_words(a[0], a[1]);
-    period.reach = start + draw_positive([a[1], a[2], a[3]], flyaways.hair_gain);
-    period.share =
-        draw_positive([b[1], b[2], b[3]], flyaways.hair_share).clamp(HAIR_SHARE_MIN, HAIR_SHARE_MAX);
+    let gain = draw_positive([a[1], a[2], a[3]], flyaways.hair_gain);
+    period.reach = start + gain;
+    let root = fiber_radius * flyaways.migration_min;
+    let whole_line = ((period.reach - root) / gain.max(1e-6)).clamp(1.0, HAIR_INWARD_MAX);
+    let share = whole_line * draw_positive([b[1], b[2], b[3]], flyaways.hair_share);
+    period.share = share.clamp(HAIR_SHARE_MIN, HAIR_SHARE_MAX);
     // From root to tip along the fiber's own twist, or against it.
     let turned = if period.root_first { TAU } else { -TAU } * period.share;
     let whole = if flyaways.hair_turns_per_period > 0.0 {
         turned * flyaways.hair_turns_per_period
     } else {
-        flyaways.hair_angle.mean + flyaways.hair_angle.deviation * normal_from_words(b[0], a[2])
+        let angle = flyaways.hair_angle;
+        whole_line * (angle.mean + angle.deviation * normal_from_words(b[0], a[2]))
     };
     period.twist = whole - turned * flyaways.fiber_turns_per_period;
 }
 
 /// Draws what the fiber is in the period `index` of a curve. Wu & Yuksel 2019, Sec. 3.1; statistics of
 /// Zhao et al. 2016.
-pub fn draw_period(periods: &CurvePeriods, fiber_index: u32, index: i32, flyaways: &Flyaways) -> Period {
+pub fn draw_period(
+    periods: &CurvePeriods,
+    fiber: &Fiber,
+    fiber_index: u32,
+    index: i32,
+    flyaways: &Flyaways,
+) -> Period {
     let identity = period_identity(periods, index, flyaways) as u32;
     let a = hash_words([periods.curve, identity, fiber_index, periods.seed]);
     let chance = uniform_from_word(a[0]);
@@ -133,7 +147,7 @@ pub fn draw_period(periods: &CurvePeriods, fiber_index: u32, index: i32, flyaway
             let spread = flyaways.loop_radius;
             period.reach = spread.mean + spread.deviation * normal_from_words(a[2], a[3]);
         }
-        Kind::Hair => draw_hair(&mut period, [a[1], a[2], a[3]], flyaways),
+        Kind::Hair => draw_hair(&mut period, [a[1], a[2], a[3]], fiber.radius, flyaways),
     }
     period
 }

@@ -90,14 +90,14 @@ fn draw_hair() -> Case {
         "draw_hair",
         |random| {
             let words = (0..3).fold(row(), |row, _| row.bits(random.bits()));
-            words.random_hairy(random).bits(random.below(2)).end()
+            words.real(random.between(0.0, 1.0)).random_hairy(random).bits(random.below(2)).end()
         },
         |args| {
-            let (words, hairy) = (args.words(), args.hairy());
+            let (words, radius, hairy) = (args.words(), args.real(), args.hairy());
             let root_first = args.bits() != 0;
             let mut drawn =
                 Period { index: 0, kind: Kind::Hair, reach: 0.0, share: 0.0, twist: 0.0, root_first };
-            period::draw_hair(&mut drawn, words, &hairy.flyaways);
+            period::draw_hair(&mut drawn, words, radius, &hairy.flyaways);
             period_parts(&drawn)
         },
     )
@@ -160,14 +160,14 @@ fn draw_period() -> Case {
         "draw_period",
         |random| {
             let index = random.below(10_000) as i32 - 5_000;
-            let placed = row().random_segment(random).bits(random.below(600)).bits(index as u32);
-            placed.random_hairy(random).end()
+            let placed = row().random_segment(random).random_fiber(random);
+            placed.bits(random.below(600)).bits(index as u32).random_hairy(random).end()
         },
         |args| {
-            let (strand, fiber, index, hairy) =
-                (args.strand(), args.bits(), args.bits() as i32, args.hairy());
+            let (strand, fiber, fiber_index) = (args.strand(), args.fiber(), args.bits());
+            let (index, hairy) = (args.bits() as i32, args.hairy());
             let periods = with_periods(&strand, &hairy);
-            period_parts(&period::draw_period(&periods, fiber, index, &hairy.flyaways))
+            period_parts(&period::draw_period(&periods, &fiber, fiber_index, index, &hairy.flyaways))
         },
     )
 }
@@ -280,7 +280,8 @@ fn meets_tip() -> Case {
         let hairy = Random::of(&format!("{}", random.bits()));
         let index = 14 + random.below(3);
         let u = f64::from(index) - 14.0 + random.between(0.0, 1.0);
-        let placed = segment.bits(random.below(600)).bits(index).real(u).real(u + random.between(-1.0, 1.0));
+        let fiber = segment.random_fiber(random);
+        let placed = fiber.bits(random.below(600)).bits(index).real(u).real(u + random.between(-1.0, 1.0));
         // Two periods to a migration, so that the piece's base is the period 14.
         let mut row = placed.random_hairy(&mut { hairy }).end();
         let last = row.len() - 2;
@@ -288,9 +289,13 @@ fn meets_tip() -> Case {
         row
     };
     case("meets_tip", make, |args| {
-        let (strand, fiber, index) = (args.strand(), args.bits(), args.bits() as i32);
+        let (strand, fiber, fiber_index) = (args.strand(), args.fiber(), args.bits());
+        let index = args.bits() as i32;
         let (u, neighbour, hairy) = (args.real(), args.real(), args.hairy());
-        let drawn = period::draw_period(&with_periods(&strand, &hairy), fiber, index, &hairy.flyaways);
+        let drawn = {
+            let periods = with_periods(&strand, &hairy);
+            period::draw_period(&periods, &fiber, fiber_index, index, &hairy.flyaways)
+        };
         let tip = breaks::meets_tip(&drawn, u + 14.0, neighbour + 14.0);
         vec![truth("meets", tip.is_some()), number("tip", tip.map_or(0.0, |tip| tip - 14.0), 1.0)]
     })

@@ -100,6 +100,7 @@ impl Args<'_> {
             hair_turns_per_period: self.real(),
             fiber_turns_per_period: self.real(),
             hair_taper: self.real(),
+            migration_min: yarn.migration_min,
             periods_per_migration: self.bits(),
             reach_mm: 0.0,
         };

@@ -4,6 +4,7 @@
 
 void run() {
     Segment segment = take_segment();
+    Fiber fiber = take_fiber();
     uint fiber_index = take_uint();
     int index = int(take_uint());
     float u = take_float();
@@ -11,7 +12,7 @@ void run() {
     Yarn yarn = take_yarn();
     Period period;
     float tip;
-    bool meets = meets_tip(segment, fiber_index, index, u, u_neighbour, yarn, period, tip);
+    bool meets = meets_tip(segment, fiber, fiber_index, index, u, u_neighbour, yarn, period, tip);
     give(meets);
     give(meets ? tip : 0.0);
 }
