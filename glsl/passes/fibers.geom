@@ -19,7 +19,7 @@ layout(location = 0) centroid out vec3 fragment_position;
 layout(location = 1) centroid out vec3 fragment_tangent;
 layout(location = 2) centroid out vec4 fragment_side;      // xyz: side, w: across, -1..1
 layout(location = 3) centroid out float fragment_distance; // from the yarn's centre, as a share of outer_radius
-layout(location = 4) flat out uvec2 fragment_fiber;  // index, kind
+layout(location = 4) flat out uvec2 fragment_fiber;  // index, what a debug view shows
 
 void main() {
     // Which end of the line comes first along the yarn is the driver's choice.

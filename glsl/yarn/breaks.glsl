@@ -35,8 +35,8 @@ bool is_broken(int exit, int entry) {
     return entry - exit > 1;
 }
 
-// If the fiber, walking from `u` to `u_neighbour` (in period turns), meets the tip of a hair of the
-// period `index` coming from outside the hair, gives where; else `u`.
+// Whether the fiber, walking from `u` to `u_neighbour` (in period turns), meets the tip of the hair of
+// the period `index` coming from outside the hair. Gives the period and where its hair would end.
 bool meets_tip(Segment segment, Fiber fiber, uint fiber_index, int index, float u, float u_neighbour, Yarn yarn,
                out Period period, out float tip) {
     period = draw_period(segment, fiber, fiber_index, index, yarn);
