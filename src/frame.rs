@@ -1,12 +1,12 @@
 //! The frame, top to bottom: what is built for a scene, and what one picture runs.
 
+mod plan;
 pub mod sampling;
 pub mod stats;
 pub mod upload;
 
 use crate::gpu_types::Statistics;
 use crate::graph::{Graph, Pass};
-use crate::passes::draw_plan::DrawPlan;
 use crate::passes::fibers::FibersPass;
 use crate::passes::resolve::ResolvePass;
 use crate::passes::targets::Targets;
@@ -15,6 +15,7 @@ use crate::precompute::occlusion_fit::fit_distance_occlusion;
 use crate::scene::Scene;
 use crate::scene::camera::Camera;
 use crate::scene::features::Features;
+use crate::scene::file::CameraTable;
 use crate::vulkan::{Buffer, Device, ImageState, MemoryKind, VulkanError, vk};
 use sampling::Sampling;
 use stats::Stats;
@@ -83,15 +84,13 @@ impl Renderer {
             if occlusion.is_some() {
                 stats.add_precompute("distance_occlusion", started.elapsed());
             }
-            let buffers = upload::fabric_buffers(device, &scene, fabric, occlusion)?;
-            let plan = DrawPlan::new(
-                fabric.strands.pieces.len() as u32,
-                fabric.yarn.fiber_count(),
-                scene.file.quality.max_subdivisions,
-                device.is_cpu(),
-                scene.file.quality.patches_per_draw,
-            );
-            fibers.add_fabric(&buffers, features, samples, plan)?;
+            let started = Instant::now();
+            let core = features.core_fibers.then(|| upload::core_texture(&scene, fabric));
+            if core.is_some() {
+                stats.add_precompute("core_texture", started.elapsed());
+            }
+            let buffers = upload::fabric_buffers(device, &scene, fabric, occlusion, core.as_ref())?;
+            fibers.add_fabric(&buffers, features, samples)?;
             stats.add_left_out(&features);
         }
         let resolve = ResolvePass::new(device, &targets)?;
@@ -118,6 +117,11 @@ impl Renderer {
         camera(&self.scene, self.request.size)
     }
 
+    /// Looks at the scene from elsewhere from now on.
+    pub fn set_camera(&mut self, camera: CameraTable) {
+        self.scene.file.camera = camera;
+    }
+
     /// The fiber pass, for kernels that read the same buffers.
     pub fn fibers_pass(&self) -> &FibersPass {
         &self.fibers
@@ -134,17 +138,20 @@ impl Renderer {
     /// Those of the device.
     pub fn render(&mut self, progress: &dyn Fn(f64)) -> Result<Picture, VulkanError> {
         let camera = self.camera();
-        let jitters = self.request.sampling.jitters();
+        let (scene, view, is_cpu) = (&self.scene, (&camera, &self.request), self.device.is_cpu());
+        self.fibers
+            .plan(|fabric, strands| plan::draw_plan(scene, &scene.fabrics[fabric], view, strands, is_cpu));
+        let frames = self.request.sampling.jitters().len();
         let mut taken = Duration::ZERO;
         let mut passes = HashMap::new();
         if self.request.statistics {
             self.statistics.replace(&[Statistics::default()])?;
         }
-        for (index, &jitter) in jitters.iter().enumerate() {
-            let frame = upload::frame(&self.scene, &camera, self.request.size, jitter);
+        for index in 0..frames {
+            let frame = upload::frame(&self.scene, &camera, &self.request, index);
             self.frame.write(0, &[frame])?;
             let timings = self.request.profile.then_some(&mut passes);
-            taken += self.draw_frame(index, jitters.len(), timings, progress)?;
+            taken += self.draw_frame(index, frames, timings, progress)?;
             if index == 0 && self.request.statistics {
                 self.stats.set_counts(self.statistics.read_staged()?);
             }

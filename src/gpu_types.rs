@@ -122,12 +122,22 @@ pub struct Yarn {
     pub hair_taper: f32,
     /// Parts of a migration for each of which loops and hairs are drawn.
     pub periods_per_migration: u32,
-    /// Not used.
-    pub padding: u32,
-    /// Not used.
-    pub padding2: u32,
-    /// Not used.
-    pub padding3: u32,
+    /// Of the circle with the ellipse's area.
+    pub ply_radius: f32,
+    /// Fibers of each ply drawn one by one at full detail.
+    pub core_ranks: f32,
+    /// Distance from the ply's centre that the core's texture spans, as a share of the ellipse.
+    pub core_extent: f32,
+    /// Mean height of the core's surface over that of its ellipse.
+    pub core_height: f32,
+    /// Texels across the core's texture.
+    pub core_rows: u32,
+    /// Texels along it, over one turn.
+    pub core_columns: u32,
+    /// Farthest fiber of each of the core's levels (`CORE_LEVELS` in `glsl/shared/constants.glsl`), as a share of the ellipse.
+    pub core_thickness: [f32; 8],
+    /// Between the fibers of successive slots: [`crate::yarn::detail::fiber_of_slot`].
+    pub slot_stride: u32,
     /// Distance from the yarn's centre that nothing exceeds.
     pub reach: f32,
     /// Visibility as a cubic of (distance from the centre / outer radius).
@@ -154,14 +164,22 @@ pub struct Frame {
     pub light_irradiance: [f32; 4],
     /// rgb.
     pub ambient_radiance: [f32; 4],
-    /// Allowed departure of a fiber's chords, per mm of distance from the eye.
-    pub tolerance_per_mm: f32,
+    /// Allowed departure of a fiber's chords, in pixels.
+    pub tolerance_px: f32,
     /// Distance of the near plane.
     pub near_mm: f32,
+    /// Width of a pixel at depth 1.
+    pub pixel_tangent: f32,
+    /// Width of a fiber above which nothing is simplified.
+    pub lod_threshold_px: f32,
+    /// Narrowest that level of detail draws a fiber.
+    pub thin_fiber_px: f32,
+    /// Of the jittered frame.
+    pub index: u32,
+    /// Between the places of a pixel at which one thing is shaded.
+    pub shading_spacing_px: f32,
     /// Not used.
     pub padding: f32,
-    /// Not used.
-    pub padding2: f32,
 }
 
 /// Counted by the control stage.

@@ -27,6 +27,9 @@ void main() {
     if (FLYAWAYS && is_broken(joining[first].y, joining[1 - first].x)) {
         return;
     }
+    if (CORE_FIBERS && max(tangent_world[0].w, tangent_world[1].w) <= 0.0) {
+        return;
+    }
     for (int end = 0; end < 2; ++end) {
         vec3 to_eye = direction_or(frame.eye_world.xyz - position_world[end], vec3(0.0, 0.0, 1.0));
         vec3 side = strip_side(tangent_world[end].xyz, to_eye);

@@ -1,9 +1,9 @@
 #version 460
-// Culls a piece of yarn or decides how many fibers and subdivisions it gets.
+// Culls a piece of yarn or decides which fibers it is drawn with, and how finely.
 #extension GL_GOOGLE_include_directive : require
 #include "bindings.glsl"
 #include "../yarn/fetch.glsl"
-#include "../yarn/level.glsl"
+#include "level.glsl"
 
 layout(vertices = 1) out;
 
@@ -13,29 +13,29 @@ layout(location = 0) patch out uint patch_segment;
 layout(location = 1) patch out uint patch_first_fiber;
 layout(location = 2) patch out uint patch_fibers;
 layout(location = 3) patch out uint patch_pieces;
+layout(location = 4) patch out uvec2 patch_mask;
 
-void count(bool culled, uint fiber_segments) {
-    if (first_fiber[0] == 0) {
-        if (culled) {
-            atomicAdd(statistics.patches_culled, 1);
-        } else {
-            atomicAdd(statistics.patches_drawn, 1);
+// The slots of this group whose fibers are drawn over some of the piece, one bit each.
+uvec2 drawn_slots(Segment segment, uint slot_count, Detail detail) {
+    uvec2 mask = uvec2(0u);
+    for (uint i = 0u; i < slot_count; ++i) {
+        uint slot = first_fiber[0] + i;
+        if (thinning_weight((float(slot) + 0.5) / float(yarn.fiber_count), detail.share) <= 0.0) {
+            break;  // nor any later one
+        }
+        uint index = fiber_of_slot(slot, yarn);
+        bool drawn = rank_weight(index / yarn.ply_count, detail.kept) > 0.0;
+        if (FLYAWAYS && !drawn) {
+            drawn = has_flyaway(segment, fibers[index], index, yarn);
+        }
+        if (drawn) {
+            mask[i >> 5u] |= 1u << (i & 31u);
         }
     }
-    uint before = atomicAdd(statistics.fiber_segments_low, fiber_segments);
-    if (before + fiber_segments < before) {
-        atomicAdd(statistics.fiber_segments_high, 1);
-    }
+    return mask;
 }
 
-void main() {
-    Segment segment = segments[segment_index[0]];
-    vec3 b[4];
-    fetch_bezier(segment, b);
-    bool culled = CULLING && outside_frustum(b, yarn.reach + yarn.fiber_radius, frame.frustum_world);
-
-    uint fiber_count = min(FIBERS_PER_PATCH, yarn.fiber_count - first_fiber[0]);
-    float distance_mm = nearest_distance(b, frame.eye_world.xyz, yarn.reach, frame.near_mm);
+uint pieces_of(Segment segment, vec3 b[4], float pixel_mm, Detail detail) {
     float fiber_reach = yarn.ellipse_long;
     if (FLYAWAYS) {
         // Loops and hairs turn about the ply farther out than its other fibers.
@@ -43,11 +43,27 @@ void main() {
         float loop = yarn.loop_probability > 0.0 ? yarn.loop_radius_mean : 0.0;
         fiber_reach *= max(1.0, max(hair, loop));
     }
+    float tolerance_mm = frame.tolerance_px * pixel_mm * mix(1.0, TOLERANCE_GROWTH, simplified(detail));
     uint pieces = subdivisions(b, segment.ply_turns_delta, segment.fiber_turns_delta, yarn.ply_offset,
-                               fiber_reach, frame.tolerance_per_mm * distance_mm, yarn.max_subdivisions);
-    if (FLYAWAYS) {
-        pieces = period_pieces(pieces, period_rate(segment, yarn), yarn.max_subdivisions);
+                               fiber_reach, tolerance_mm, pieces_per_turn(detail), yarn.max_subdivisions);
+    return FLYAWAYS ? period_pieces(pieces, period_rate(segment, yarn), yarn.max_subdivisions) : pieces;
+}
+
+void main() {
+    Segment segment = segments[segment_index[0]];
+    vec3 b[4];
+    fetch_bezier(segment, b);
+    bool culled = CULLING && outside_frustum(b, yarn.reach + yarn.fiber_radius, frame.frustum_world);
+    float pixel_mm = frame.pixel_tangent * nearest_depth(b, depth_axis(), yarn.reach, frame.near_mm);
+
+    uint fiber_count = min(FIBERS_PER_PATCH, yarn.fiber_count - first_fiber[0]);
+    Detail detail = detail_at(pixel_mm);
+    patch_mask = uvec2(0u);
+    if (CORE_FIBERS && !culled) {
+        patch_mask = drawn_slots(segment, fiber_count, detail);
+        fiber_count = uint(bitCount(patch_mask.x) + bitCount(patch_mask.y));
     }
+    uint pieces = culled || fiber_count == 0u ? 1u : pieces_of(segment, b, pixel_mm, detail);
     patch_segment = segment_index[0];
     patch_first_fiber = first_fiber[0];
     // The evaluation stage sees levels before clamping, so it gets the counts themselves.
@@ -56,6 +72,9 @@ void main() {
     gl_TessLevelOuter[0] = culled ? 0.0 : float(fiber_count);
     gl_TessLevelOuter[1] = culled ? 0.0 : float(pieces);
     if (STATISTICS) {
-        count(culled, culled ? 0 : fiber_count * pieces);
+        if (first_fiber[0] == 0) {
+            count_patch(culled);
+        }
+        count_segments(culled ? 0 : fiber_count * pieces);
     }
 }

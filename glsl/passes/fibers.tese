@@ -4,6 +4,8 @@
 #include "bindings.glsl"
 #include "../yarn/fetch.glsl"
 #include "../shared/debug_views.glsl"
+#include "level.glsl"
+#include "shown.glsl"
 
 layout(isolines, equal_spacing) in;
 
@@ -11,6 +13,7 @@ layout(location = 0) patch in uint patch_segment;
 layout(location = 1) patch in uint patch_first_fiber;
 layout(location = 2) patch in uint patch_fibers;
 layout(location = 3) patch in uint patch_pieces;
+layout(location = 4) patch in uvec2 patch_mask;
 
 layout(location = 0) out vec3 position_world;
 layout(location = 1) out vec4 tangent_world;   // a: share of the fiber's width
@@ -18,54 +21,38 @@ layout(location = 2) out float center_distance;
 layout(location = 3) out uint fiber_index;
 layout(location = 4) out ivec4 joining;        // entry, exit, what a debug view shows, place along the piece
 
-// Stripes along the yarn where its normal (red) and binormal (green) point.
-vec3 frame_color(FiberPoint f, vec3 yarn_tangent) {
-    vec3 outward = direction_or(f.position - f.yarn_center, f.yarn_normal);
-    float along_normal = dot(outward, f.yarn_normal);
-    float along_binormal = dot(outward, cross(yarn_tangent, f.yarn_normal));
-    return along_normal > 0.9 ? vec3(0.9, 0.1, 0.05) : along_binormal > 0.9 ? vec3(0.1, 0.7, 0.1) : vec3(0.45);
-}
-
-vec3 length_color(Segment segment, float t) {
-    float turns = (segment.length_start + t * segment.length_mm) / LENGTH_STRIPE;
-    vec3 hue = 0.5 + 0.45 * cos(TWO_PI * (turns + vec3(0.0, 1.0, 2.0) / 3.0));
-    return fract(turns) < 0.06 ? vec3(0.05) : hue;
-}
-
-// What a debug view shows of this vertex, in one word.
-int shown(FiberPoint f, uint kind, float t) {
-    Segment segment = segments[patch_segment];
-    if (DEBUG_VIEW == VIEW_FRAME) {
-        vec3 b[4];
-        fetch_bezier(segment, b);
-        vec3 yarn_tangent = piece_tangent(b, bezier_point(b, t).derivative);
-        return int(packUnorm4x8(vec4(frame_color(f, yarn_tangent), 1.0)));
-    }
-    if (DEBUG_VIEW == VIEW_LENGTH) {
-        return int(packUnorm4x8(vec4(length_color(segment, t), 1.0)));
-    }
-    return int(kind);
+// Factor of the fiber's own width where level of detail is at work: `flies` where it stands out of the ply as a
+// loop or a hair, for which no core stands.
+float drawn_width(uint slot, vec3 position, bool flies) {
+    Detail detail = detail_at(pixel_mm_at(position));
+    float thinning = thinning_weight((float(slot) + 0.5) / float(yarn.fiber_count), detail.share);
+    float width = width_factor(thinning, detail.share);
+    return flies ? width : width * rank_weight(fiber_index / yarn.ply_count, detail.kept);
 }
 
 void main() {
     // TessCoord is 16.16 fixed point on some drivers: round, never floor.
-    fiber_index = patch_first_fiber + uint(gl_TessCoord.y * float(patch_fibers) + 0.5);
+    uint line = uint(gl_TessCoord.y * float(patch_fibers) + 0.5);
+    uint slot = patch_first_fiber + (CORE_FIBERS ? nth_set_bit(patch_mask, line) : line);
+    fiber_index = CORE_FIBERS ? fiber_of_slot(slot, yarn) : slot;
     float place = floor(gl_TessCoord.x * float(patch_pieces) + 0.5);
     float t = place / float(patch_pieces);
     FiberPoint f;
+    bool flies = false;
     if (FLYAWAYS) {
         StrandVertex vertex;
         f = fetch_fiber_vertex(patch_segment, fiber_index, t, patch_pieces, vertex);
         // Beyond its tip a hair's period goes on as a fiber that only migrates.
         bool migrates = vertex.period.kind == KIND_HAIR && !on_hair(vertex.period, vertex.x);
         uint kind = migrates ? KIND_MIGRATION : vertex.period.kind;
-        joining = ivec4(vertex.entry, vertex.exit, shown(f, kind, vertex.t), int(place));
+        flies = kind != KIND_MIGRATION && f.radius > flying_radius(fibers[fiber_index], yarn);
+        joining = ivec4(vertex.entry, vertex.exit, shown(patch_segment, f, kind, vertex.t), int(place));
     } else {
         Period period;
         f = fetch_fiber_at(patch_segment, fiber_index, t, period);
-        joining = ivec4(0, 0, shown(f, period.kind, t), int(place));
+        joining = ivec4(0, 0, shown(patch_segment, f, period.kind, t), int(place));
     }
     position_world = f.position;
-    tangent_world = vec4(f.tangent, f.width);
+    tangent_world = vec4(f.tangent, CORE_FIBERS ? f.width * drawn_width(slot, f.position, flies) : f.width);
     center_distance = f.center_distance;
 }

@@ -9,6 +9,9 @@ const float TWO_PI = 6.28318530717959;
 // A yarn with more fibers is drawn as several instances of its patches.
 const uint FIBERS_PER_PATCH = 64;
 
+// Levels of detail for which a core fiber's texture is baked.
+const uint CORE_LEVELS = 8;
+
 // Rest length in mm after which the colours of the length view repeat.
 const float LENGTH_STRIPE = 10.0;
 

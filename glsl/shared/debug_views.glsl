@@ -10,5 +10,6 @@ const uint VIEW_PLY = 4;
 const uint VIEW_KIND = 5;
 const uint VIEW_FRAME = 6;
 const uint VIEW_LENGTH = 7;
+const uint VIEW_LEVEL_OF_DETAIL = 8;
 
 #endif

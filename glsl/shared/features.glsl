@@ -11,5 +11,9 @@ layout(constant_id = 5) const bool AMBIENT = true;
 layout(constant_id = 6) const bool LIGHT = true;
 layout(constant_id = 7) const uint DEBUG_VIEW = 0;       // src/scene/file.rs, `DebugView`
 layout(constant_id = 8) const bool FLYAWAYS = true;      // loops or hairs exist
+layout(constant_id = 9) const bool CORE_FIBERS = true;  // core fibers stand for some of the fibers
+layout(constant_id = 10) const bool LEVEL_OF_DETAIL = true;
+layout(constant_id = 11) const uint SAMPLES = 4;        // of a pixel in one frame
+layout(constant_id = 12) const bool REGULAR_FIBERS = true; // fibers are drawn one by one
 
 #endif

@@ -2,6 +2,8 @@
 #ifndef WORSTED_LAYOUTS
 #define WORSTED_LAYOUTS
 
+#include "constants.glsl"
+
 // One control point of a yarn: 16 bytes. Lengths in mm, relative to the scene's origin.
 struct ControlPoint {
     vec3 position;
@@ -63,9 +65,14 @@ struct Yarn {
     float fiber_turns_per_period; // 1 / s
     float hair_taper;       // share of the hair's length over which it tapers to a point
     uint periods_per_migration; // parts of a migration for each of which loops and hairs are drawn
-    uint padding;
-    uint padding2;
-    uint padding3;
+    float ply_radius;       // of the circle with the ellipse's area
+    float core_ranks;       // fibers of each ply drawn one by one at full detail
+    float core_extent;      // distance from the ply's centre that the core's texture spans, as share of the ellipse
+    float core_height;      // mean height of the core's surface over that of its ellipse
+    uint core_rows;         // texels across the core's texture
+    uint core_columns;      // texels along it, over one turn
+    float core_thickness[CORE_LEVELS]; // farthest fiber of each level, as share of the ellipse
+    uint slot_stride;       // between the fibers of successive slots: glsl/yarn/detail.glsl
     float reach;            // of anything, hairs included, from the yarn's centre
     vec4 occlusion;         // visibility as a cubic of (distance from the centre / outer_radius)
     vec4 diffuse;           // k_d, rgb
@@ -80,10 +87,14 @@ struct Frame {
     vec4 light_direction_world; // xyz: unit, toward the light
     vec4 light_irradiance;      // rgb, on a surface facing the light
     vec4 ambient_radiance;      // rgb
-    float tolerance_per_mm;     // allowed departure of a chord, per mm of distance from the eye
+    float tolerance_px;         // allowed departure of a fiber's chords, in pixels
     float near_mm;              // distance of the near plane
+    float pixel_tangent;        // width of a pixel at depth 1
+    float lod_threshold_px;
+    float thin_fiber_px;        // narrowest that level of detail draws a fiber
+    uint index;                 // of the jittered frame
+    float shading_spacing_px;   // between the places of a pixel at which one thing is shaded
     float padding;
-    float padding2;
 };
 
 // Counted by the control stage; each count is two words, low then high.

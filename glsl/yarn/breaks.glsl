@@ -35,12 +35,10 @@ bool is_broken(int exit, int entry) {
     return entry - exit > 1;
 }
 
-// Whether the fiber, walking from `u` to `u_neighbour` (in period turns), meets the tip of the hair of
-// the period `index` coming from outside the hair. Gives the period and where its hair would end.
-bool meets_tip(Segment segment, Fiber fiber, uint fiber_index, int index, float u, float u_neighbour, Yarn yarn,
-               out Period period, out float tip) {
-    period = draw_period(segment, fiber, fiber_index, index, yarn);
-    tip = float(index - period_base(segment, yarn)) + hair_cut(period);
+// Whether the fiber, walking from `u` to `u_neighbour` (in period turns beyond the period `base`), meets the tip
+// of the period's hair coming from outside the hair, and where that is.
+bool meets_tip(Period period, int base, float u, float u_neighbour, out float tip) {
+    tip = float(period.index - base) + hair_cut(period);
     if (period.kind != KIND_HAIR) {
         return false;
     }
@@ -48,37 +46,47 @@ bool meets_tip(Segment segment, Fiber fiber, uint fiber_index, int index, float 
     return period.root_first ? u > tip && u_neighbour < tip : u < tip && u_neighbour > tip;
 }
 
+// The vertex on the tip of a period's hair.
+StrandVertex tip_vertex(Period period, float t, float rate) {
+    StrandVertex vertex;
+    vertex.t = t;
+    vertex.period = period;
+    vertex.x = hair_cut(period);
+    mark(vertex, period.root_first ? 0 : 1, rate);
+    return vertex;
+}
+
 // The vertex at t of `pieces` equal steps. Where a hair's tip lies between it and a neighbour, on whose
 // side the hair is, the vertex moves onto the tip: hairs have their true length however coarsely drawn.
 StrandVertex strand_vertex(Segment segment, Fiber fiber, uint fiber_index, float t, uint pieces, Yarn yarn) {
-    StrandVertex vertex;
-    vertex.t = t;
     float u = period_turns(segment, fiber, t, yarn);
     float rate = period_rate(segment, yarn);
     int base = period_base(segment, yarn);
+    int own_index = base + int(floor(u));
+    Period own = draw_period(segment, fiber, fiber_index, own_index, yarn);
     for (int side = -1; side <= 1; side += 2) {
         float t_neighbour = t + float(side) / float(pieces);
         if (t_neighbour < -1e-4 || t_neighbour > 1.0001) {
             continue;
         }
         float u_neighbour = period_turns(segment, fiber, t_neighbour, yarn);
-        int own = base + int(floor(u));
-        int other = base + int(floor(u_neighbour));
-        for (int k = 0; k < (own == other ? 1 : 2); ++k) {
-            Period period;
-            float tip;
-            if (meets_tip(segment, fiber, fiber_index, k == 0 ? own : other, u, u_neighbour, yarn, period, tip)) {
-                vertex.t = t + (tip - u) / rate;
-                vertex.period = period;
-                vertex.x = hair_cut(period);
-                mark(vertex, period.root_first ? 0 : 1, rate);
-                return vertex;
+        float tip;
+        if (meets_tip(own, base, u, u_neighbour, tip)) {
+            return tip_vertex(own, t + (tip - u) / rate, rate);
+        }
+        int other_index = base + int(floor(u_neighbour));
+        if (other_index != own_index) {
+            Period other = draw_period(segment, fiber, fiber_index, other_index, yarn);
+            if (meets_tip(other, base, u, u_neighbour, tip)) {
+                return tip_vertex(other, t + (tip - u) / rate, rate);
             }
         }
     }
-    vertex.period = draw_period(segment, fiber, fiber_index, base + int(floor(u)), yarn);
+    StrandVertex vertex;
+    vertex.t = t;
+    vertex.period = own;
     vertex.x = fract(u);
-    mark(vertex, cut_side(vertex.period, vertex.x), rate);
+    mark(vertex, cut_side(own, vertex.x), rate);
     return vertex;
 }
 

@@ -31,10 +31,13 @@ struct FiberPoint {
     vec3 yarn_center;
     vec3 yarn_normal;
     vec3 ply_center;
+    vec3 ply_normal;       // unit, from the yarn's centre to the ply's
+    vec3 ply_binormal;     // unit, around the yarn
     vec3 position;
     vec3 tangent;          // unit, along the fiber
     float center_distance; // from the yarn's centre line, in the cross-section
     float width;           // share of the fiber's full width
+    float radius;          // R
 };
 
 // Rotations at t of a piece. Reduced before the multiplication by 2 pi, so that no angle is large.
@@ -99,10 +102,13 @@ FiberPoint fiber_point(YarnPoint yarn_at, Twist twist, Yarn yarn, Fiber fiber, F
     FiberPoint f;
     f.yarn_center = yarn_at.center;
     f.yarn_normal = yarn_at.normal;
+    f.ply_normal = normal_ply;
+    f.ply_binormal = binormal_ply;
     f.ply_center = yarn_at.center + yarn.ply_offset * normal_ply;
     f.position = yarn_at.center + from_center;
     f.center_distance = length(vec2(away, y));
     f.width = shape.width;
+    f.radius = shape.radius;
     // On the inside of a bend the fiber advances less than the centre line.
     float bend_speed = dot(from_center, yarn_at.bend) / max(yarn_at.speed, 1e-12);
     vec3 velocity = (yarn_at.speed - bend_speed) * yarn_at.tangent

@@ -16,16 +16,16 @@ float turning_angle(vec3 a, vec3 b) {
 // Pieces a fiber is cut into over the Bezier piece `b` of yarn, so that no chord departs from the
 // curve by more than `tolerance` (mm). Over an angle a at radius r, n chords depart by r a^2 / (8 n^2);
 // the plies' rotation about the yarn (radius `ply_offset`), the fibers' about the ply (at most
-// `ellipse_long`) and the bend of the centre line add up. At least 6 pieces a turn, whose directions
+// `ellipse_long`) and the bend of the centre line add up. At least `per_turn` pieces a turn, whose directions
 // shading can interpolate; 1 to `largest`.
 uint subdivisions(vec3 b[4], float ply_turns, float fiber_turns, float ply_offset, float ellipse_long,
-                  float tolerance, uint largest) {
+                  float tolerance, float per_turn, uint largest) {
     float bend = turning_angle(b[1] - b[0], b[2] - b[1]) + turning_angle(b[2] - b[1], b[3] - b[2]);
     float length_mm = length(b[1] - b[0]) + length(b[2] - b[1]) + length(b[3] - b[2]);
     float ply = TWO_PI * ply_turns;
     float fiber = TWO_PI * (ply_turns + fiber_turns);
     float departure = (ply_offset * ply * ply + ellipse_long * fiber * fiber + length_mm * bend) / 8.0;
-    float smooth_pieces = (abs(ply) + abs(fiber) + bend) * (6.0 / TWO_PI);
+    float smooth_pieces = (abs(ply) + abs(fiber) + bend) * (per_turn / TWO_PI);
     float pieces = max(sqrt(departure / max(tolerance, 1e-12)), smooth_pieces);
     return uint(clamp(ceil(pieces), 1.0, float(largest)));
 }
@@ -36,13 +36,14 @@ uint period_pieces(uint pieces, float periods, uint largest) {
     return uint(clamp(ceil(4.0 * abs(periods)), float(min(pieces, largest)), float(largest)));
 }
 
-// Distance from `eye` to the nearest control point of `b`, less `margin`, at least `nearest`.
-float nearest_distance(vec3 b[4], vec3 eye, float margin, float nearest) {
-    float squared = dot(b[0] - eye, b[0] - eye);
+// Depth of the nearest control point of `b` along the view axis, less `margin`, at least `nearest`;
+// `depth` gives a point's depth as depth.xyz . p + depth.w.
+float nearest_depth(vec3 b[4], vec4 depth, float margin, float nearest) {
+    float least = dot(depth.xyz, b[0]);
     for (int k = 1; k < 4; ++k) {
-        squared = min(squared, dot(b[k] - eye, b[k] - eye));
+        least = min(least, dot(depth.xyz, b[k]));
     }
-    return max(sqrt(squared) - margin, nearest);
+    return max(least + depth.w - margin, nearest);
 }
 
 // Whether everything within `margin` of the Bezier curve `b` lies outside one of the planes.

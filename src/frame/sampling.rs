@@ -30,6 +30,16 @@ impl Sampling {
         self.0
     }
 
+    /// Distance between a pixel's samples, in pixels, if they lay on a square grid.
+    pub fn spacing_px(self) -> f64 {
+        f64::from(self.0).sqrt().recip()
+    }
+
+    /// Distance between the places of a pixel at which one thing is shaded, in pixels: once a frame.
+    pub fn frame_spacing_px(self) -> f64 {
+        (self.jitters().len() as f64).sqrt().recip()
+    }
+
     /// Samples of one frame.
     pub fn multisampling(self) -> vk::SampleCountFlags {
         if self.0 == 1 { vk::SampleCountFlags::TYPE_1 } else { vk::SampleCountFlags::TYPE_4 }

@@ -1,19 +1,23 @@
 //! The scene in the device's words: f64 truth to GPU structs.
 
+use super::Request;
 use crate::gpu_types::{ControlPoint, Fiber, Frame, LENGTH_STRIPE, Segment, Yarn};
 use crate::math::frame::octahedral_from_unit;
 use crate::passes::fibers::FabricBuffers;
+use crate::precompute::core_texture::{CoreMip, CoreTexture, Moments, bake_core};
 use crate::scene::camera::Camera;
 use crate::scene::file::QualityTable;
 use crate::scene::{Fabric, Scene};
-use crate::vulkan::{Buffer, Device, VulkanError, vk};
+use crate::vulkan::{Buffer, Device, Image, ImageInfo, ImageState, VulkanError, vk};
+use crate::yarn::detail::slot_stride;
 use crate::yarn::fetch::period_seed;
 use crate::yarn::fiber::Turns;
 use crate::yarn::flyaway::Flyaways;
 use crate::yarn::params::Spread;
 use crate::yarn::strand::Piece;
 use crate::yarn::table::fiber_table;
-use glam::{DMat4, DVec2, DVec3, DVec4};
+use glam::{DMat4, DVec3, DVec4};
+use half::f16;
 use std::sync::Arc;
 
 /// Control points relative to the scene's origin: subtracted in f64, so that far-off models keep
@@ -65,7 +69,13 @@ pub fn fibers(fabric: &Fabric, seed: u64) -> Vec<Fiber> {
 }
 
 /// What all yarns of a fabric share.
-pub fn yarn(fabric: &Fabric, quality: &QualityTable, occlusion: Option<DVec4>, seed: u64) -> Yarn {
+pub fn yarn(
+    fabric: &Fabric,
+    quality: &QualityTable,
+    occlusion: Option<DVec4>,
+    core: Option<&CoreTexture>,
+    seed: u64,
+) -> Yarn {
     let params = &fabric.yarn;
     let flyaways = Flyaways::new(params);
     let spread = |spread: Spread| (spread.mean as f32, spread.deviation as f32);
@@ -107,9 +117,15 @@ pub fn yarn(fabric: &Fabric, quality: &QualityTable, occlusion: Option<DVec4>, s
         fiber_turns_per_period: flyaways.fiber_turns_per_period as f32,
         hair_taper: flyaways.hair_taper as f32,
         periods_per_migration: flyaways.periods_per_migration,
-        padding: 0,
-        padding2: 0,
-        padding3: 0,
+        ply_radius: params.round_ply_radius_mm() as f32,
+        // Without a core every fiber is drawn.
+        core_ranks: core.map_or(params.fibers_per_ply, |core| core.ranks) as f32,
+        core_extent: core.map_or(1.0, |core| core.extent) as f32,
+        core_height: core.map_or(0.0, |core| core.height_share) as f32,
+        core_rows: core.map_or(1, |core| core.mips[0].rows),
+        core_columns: core.map_or(1, |core| core.mips[0].columns),
+        core_thickness: core.map_or([0.0; 8], |core| core.thickness.map(|t| t as f32)),
+        slot_stride: slot_stride(params.fiber_count()),
         reach: flyaways.reach_mm as f32,
         occlusion: occlusion.as_vec4().to_array(),
         diffuse: rgb(fabric.fiber.diffuse),
@@ -118,8 +134,12 @@ pub fn yarn(fabric: &Fabric, quality: &QualityTable, occlusion: Option<DVec4>, s
 }
 
 /// The camera and light of one jittered frame.
-pub fn frame(scene: &Scene, camera: &Camera, size: [u32; 2], jitter: DVec2) -> Frame {
+pub fn frame(scene: &Scene, camera: &Camera, request: &Request, index: usize) -> Frame {
     let light = scene.file.light().into_iter().next().unwrap_or_default();
+    let quality = &scene.file.quality;
+    let size = request.size;
+    let spacing_px = request.sampling.spacing_px();
+    let jitter = request.sampling.jitters()[index];
     let to_light = -DVec3::from_array(light.direction).normalize();
     Frame {
         clip_from_world: columns(camera.clip_from_world(size, jitter)),
@@ -128,10 +148,14 @@ pub fn frame(scene: &Scene, camera: &Camera, size: [u32; 2], jitter: DVec2) -> F
         light_direction_world: to_light.extend(0.0).as_vec4().to_array(),
         light_irradiance: rgb(light.irradiance),
         ambient_radiance: rgb(scene.file.ambient.radiance),
-        tolerance_per_mm: (scene.file.quality.subdivision_tolerance_px * camera.pixel_tangent(size)) as f32,
+        tolerance_px: quality.subdivision_tolerance_px as f32,
         near_mm: camera.near_mm as f32,
+        pixel_tangent: camera.pixel_tangent(size) as f32,
+        lod_threshold_px: (quality.lod_threshold_samples * spacing_px) as f32,
+        thin_fiber_px: (quality.thin_fiber_samples * spacing_px) as f32,
+        index: index as u32,
+        shading_spacing_px: request.sampling.frame_spacing_px() as f32,
         padding: 0.0,
-        padding2: 0.0,
     }
 }
 
@@ -143,7 +167,15 @@ fn columns(m: DMat4) -> [[f32; 4]; 4] {
     m.as_mat4().to_cols_array_2d()
 }
 
-/// Uploads a fabric, once.
+/// Bakes the core texture of a fabric's yarn.
+pub fn core_texture(scene: &Scene, fabric: &Fabric) -> CoreTexture {
+    let quality = &scene.file.quality;
+    let fibers = fiber_table(&fabric.yarn, scene.file.seed);
+    bake_core(&fabric.yarn, &fibers, quality.core_texture_rows, quality.core_visible_share)
+}
+
+/// Uploads a fabric, once. Without a core the shaders never read its texture, but a descriptor must be there:
+/// one texel stands in.
 ///
 /// # Errors
 /// Those of the device.
@@ -152,22 +184,48 @@ pub fn fabric_buffers(
     scene: &Scene,
     fabric: &Fabric,
     occlusion: Option<DVec4>,
+    core: Option<&CoreTexture>,
 ) -> Result<FabricBuffers, VulkanError> {
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+    let points = control_points(fabric, scene.origin_mm);
+    let yarn = yarn(fabric, &scene.file.quality, occlusion, core, scene.file.seed);
     Ok(FabricBuffers {
-        control_points: Buffer::upload(
-            device,
-            "control points",
-            usage,
-            &control_points(fabric, scene.origin_mm),
-        )?,
+        control_points: Buffer::upload(device, "control points", usage, &points)?,
         segments: Buffer::upload(device, "yarn segments", usage, &segments(fabric))?,
         fibers: Buffer::upload(device, "fibers", usage, &fibers(fabric, scene.file.seed))?,
-        yarn: Buffer::upload(
-            device,
-            "yarn parameters",
-            usage,
-            &[yarn(fabric, &scene.file.quality, occlusion, scene.file.seed)],
-        )?,
+        yarn: Buffer::upload(device, "yarn parameters", usage, &[yarn])?,
+        core: core_images(device, core)?,
     })
+}
+
+/// The three images of a core texture.
+fn core_images(device: &Arc<Device>, core: Option<&CoreTexture>) -> Result<[Image; 3], VulkanError> {
+    let none = [CoreMip { columns: 1, rows: 1, texels: vec![Moments::default(); 2] }];
+    let (mips, layers) = core.map_or((&none[..], 2), |core| (&core.mips[..], core.layers));
+    let image = |name, part: fn(&Moments) -> [f64; 4]| {
+        let image = Image::new(
+            device,
+            &ImageInfo {
+                name,
+                format: vk::Format::R16G16B16A16_SFLOAT,
+                extent: [mips[0].columns, mips[0].rows, 1],
+                layers,
+                mip_levels: mips.len() as u32,
+                usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST,
+                ..Default::default()
+            },
+        )?;
+        let halves = |mip: &CoreMip| -> Vec<[f16; 4]> {
+            mip.texels.iter().map(|texel| part(texel).map(f16::from_f64)).collect()
+        };
+        let levels: Vec<Vec<[f16; 4]>> = mips.iter().map(halves).collect();
+        let levels: Vec<&[[f16; 4]]> = levels.iter().map(Vec::as_slice).collect();
+        image.upload_mips(&levels, ImageState::SAMPLED_GRAPHICS)?;
+        Ok(image)
+    };
+    Ok([
+        image("core normals", |texel| texel.normals)?,
+        image("core shape", |texel| texel.shape)?,
+        image("core spread", |texel| texel.spread)?,
+    ])
 }

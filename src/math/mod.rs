@@ -2,6 +2,7 @@
 
 pub mod angle;
 pub mod color;
+pub mod coverage;
 pub mod curve;
 pub mod frame;
 pub mod hash;

@@ -22,7 +22,7 @@ pub struct Draw {
     pub groups: u32,
 }
 
-/// Sizes of a fabric's draws.
+/// Sizes of a fabric's draws. `Default` draws nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DrawPlan {
     patches: u32,
@@ -30,6 +30,12 @@ pub struct DrawPlan {
     groups: u32,
     patches_per_draw: u32,
     groups_per_draw: u32,
+}
+
+impl Default for DrawPlan {
+    fn default() -> Self {
+        Self::new(0, 0, 1, false, None)
+    }
 }
 
 impl DrawPlan {
@@ -58,6 +64,12 @@ impl DrawPlan {
     /// Fiber curves of all draws together.
     pub fn curves(&self) -> u64 {
         u64::from(self.patches) * u64::from(self.fibers)
+    }
+
+    /// How many draws there are.
+    pub fn draw_count(&self) -> usize {
+        let steps = |total: u32, step: u32| total.div_ceil(step) as usize;
+        steps(self.patches, self.patches_per_draw) * steps(self.groups, self.groups_per_draw)
     }
 
     /// The draws, in an order that does not depend on their size: patch by patch.
@@ -105,6 +117,7 @@ mod tests {
                 }
             }
         }
+        assert_eq!(plan.draw_count(), plan.draws().count());
         assert!(drawn.iter().all(|&n| n == 1), "{patches} {fibers} {subdivisions} {asked:?}");
     }
 

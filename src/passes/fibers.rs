@@ -1,14 +1,13 @@
 //! Expands yarn into fibers and shades them: vertex, tessellation, geometry and fragment stages.
 
 use super::draw_plan::DrawPlan;
-use super::spirv;
-use super::targets::{DEPTH_FORMAT, RADIANCE_FORMAT, Targets};
+use super::strand_pipeline::{Strands, strand_pipeline};
+use super::targets::Targets;
 use crate::graph::{Pass, Use};
 use crate::scene::features::Features;
 use crate::vulkan::{
-    Access, Binding, Buffer, ColorTarget, Commands, DepthState, DepthTarget, DescriptorLayout, DescriptorSet,
-    Device, GraphicsPipelineInfo, Image, ImageState, Pipeline, Rendering, Resource, ShaderStage,
-    SpecializationConstants, VulkanError, vk,
+    Access, Binding, Buffer, ColorTarget, Commands, DepthTarget, DescriptorLayout, DescriptorSet, Device,
+    Image, ImageState, Pipeline, Rendering, Resource, Sampler, SamplerInfo, VulkanError, vk,
 };
 use std::collections::HashMap;
 use std::ops::Range;
@@ -19,7 +18,7 @@ const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
     vk::ShaderStageFlags::ALL_GRAPHICS.as_raw() | vk::ShaderStageFlags::COMPUTE.as_raw(),
 );
 
-/// The buffers of one fabric, in the order of set 1's bindings in `glsl/passes/bindings.glsl`.
+/// What one fabric's shaders read, in the order of set 1's bindings in `glsl/passes/bindings.glsl`.
 pub struct FabricBuffers {
     /// [`crate::gpu_types::ControlPoint`]s.
     pub control_points: Buffer,
@@ -29,12 +28,16 @@ pub struct FabricBuffers {
     pub fibers: Buffer,
     /// One [`crate::gpu_types::Yarn`].
     pub yarn: Buffer,
+    /// The core texture: normals, shape and spread.
+    pub core: [Image; 3],
 }
 
-/// One fabric ready to be drawn.
-pub struct FabricDraw {
+/// One pipeline's draws of one fabric.
+struct FabricDraw {
     pipeline: Pipeline,
-    set: DescriptorSet,
+    /// Which of the pass's sets.
+    fabric: usize,
+    strands: Strands,
     plan: DrawPlan,
 }
 
@@ -46,8 +49,10 @@ pub struct FibersPass {
     frame: Buffer,
     statistics: Buffer,
     frame_set: DescriptorSet,
-    pipelines: HashMap<Features, Pipeline>,
-    fabrics: Vec<FabricDraw>,
+    core_sampler: Sampler,
+    pipelines: HashMap<(Features, Strands), Pipeline>,
+    fabrics: Vec<DescriptorSet>,
+    draws: Vec<FabricDraw>,
 }
 
 impl FibersPass {
@@ -60,9 +65,13 @@ impl FibersPass {
         let storage = vk::DescriptorType::STORAGE_BUFFER;
         let frame_bindings = [binding(0, vk::DescriptorType::UNIFORM_BUFFER), binding(1, storage)];
         let frame_layout = DescriptorLayout::new(device, "frame", &frame_bindings)?;
-        let fabric_bindings: [_; 4] = std::array::from_fn(|i| binding(i as u32, storage));
+        let kind_of = |i| if i < 4 { storage } else { vk::DescriptorType::COMBINED_IMAGE_SAMPLER };
+        let fabric_bindings: [_; 7] = std::array::from_fn(|i| binding(i as u32, kind_of(i)));
         let fabric_layout = DescriptorLayout::new(device, "fabric", &fabric_bindings)?;
         let resources = [(0, Resource::Uniform(&frame)), (1, Resource::Storage(&statistics))];
+        // Along the core the texture tiles.
+        let [repeat, clamp] = [vk::SamplerAddressMode::REPEAT, vk::SamplerAddressMode::CLAMP_TO_EDGE];
+        let sampling = SamplerInfo { address: [repeat, clamp, clamp], ..Default::default() };
         let frame_set = DescriptorSet::new(&frame_layout, "frame", &resources)?;
         Ok(Self {
             device: device.clone(),
@@ -71,8 +80,10 @@ impl FibersPass {
             frame,
             statistics,
             frame_set,
+            core_sampler: Sampler::new(device, "core", &sampling)?,
             pipelines: HashMap::new(),
             fabrics: Vec::new(),
+            draws: Vec::new(),
         })
     }
 
@@ -83,10 +94,10 @@ impl FibersPass {
 
     /// Sets 0 and 1 of a fabric, for kernels that read the same buffers.
     pub fn sets(&self, fabric: usize) -> Option<[&DescriptorSet; 2]> {
-        Some([&self.frame_set, &self.fabrics.get(fabric)?.set])
+        Some([&self.frame_set, self.fabrics.get(fabric)?])
     }
 
-    /// Adds a fabric to what is drawn.
+    /// Adds a fabric to what is drawn: its core fibers, then those drawn one by one.
     ///
     /// # Errors
     /// Those of the device.
@@ -95,77 +106,56 @@ impl FibersPass {
         buffers: &FabricBuffers,
         features: Features,
         samples: vk::SampleCountFlags,
-        plan: DrawPlan,
     ) -> Result<(), VulkanError> {
-        let pipeline = match self.pipelines.get(&features) {
-            Some(pipeline) => pipeline.clone(),
-            None => {
-                let pipeline = self.build_pipeline(&features, samples)?;
-                self.pipelines.insert(features, pipeline.clone());
-                pipeline
-            }
-        };
+        let sampled = |image: usize| Resource::Sampled(buffers.core[image].view(), &self.core_sampler);
         let resources = [
             (0, Resource::Storage(&buffers.control_points)),
             (1, Resource::Storage(&buffers.segments)),
             (2, Resource::Storage(&buffers.fibers)),
             (3, Resource::Storage(&buffers.yarn)),
+            (4, sampled(0)),
+            (5, sampled(1)),
+            (6, sampled(2)),
         ];
         let set = DescriptorSet::new(&self.fabric_layout, "fabric", &resources)?;
-        self.fabrics.push(FabricDraw { pipeline, set, plan });
+        let fabric = self.fabrics.len();
+        self.fabrics.push(set);
+        // Cores first: what lies behind them is then never shaded.
+        let drawn =
+            [(Strands::Core, features.core_fibers_drawn), (Strands::Regular, features.regular_fibers)];
+        for (strands, _) in drawn.into_iter().filter(|(_, drawn)| *drawn) {
+            let pipeline = match self.pipelines.get(&(features, strands)) {
+                Some(pipeline) => pipeline.clone(),
+                None => {
+                    let layouts = self.layouts();
+                    let pipeline = strand_pipeline(&self.device, &features, strands, samples, &layouts)?;
+                    self.pipelines.insert((features, strands), pipeline.clone());
+                    pipeline
+                }
+            };
+            self.draws.push(FabricDraw { pipeline, fabric, strands, plan: DrawPlan::default() });
+        }
         Ok(())
     }
 
-    fn build_pipeline(
-        &self,
-        features: &Features,
-        samples: vk::SampleCountFlags,
-    ) -> Result<Pipeline, VulkanError> {
-        use vk::ShaderStageFlags as Stage;
-        let constants = specialization(features);
-        let files = [
-            (Stage::VERTEX, "passes/fibers.vert"),
-            (Stage::TESSELLATION_CONTROL, "passes/fibers.tesc"),
-            (Stage::TESSELLATION_EVALUATION, "passes/fibers.tese"),
-            (Stage::GEOMETRY, "passes/fibers.geom"),
-            (Stage::FRAGMENT, "passes/fibers.frag"),
-        ];
-        let stages = files
-            .iter()
-            .map(|&(stage, file)| Ok(ShaderStage { stage, spirv: spirv(file)?, constants: &constants }))
-            .collect::<Result<Vec<_>, VulkanError>>()?;
-        Pipeline::graphics(
-            &self.device,
-            &GraphicsPipelineInfo {
-                name: "fibers",
-                stages: &stages,
-                topology: vk::PrimitiveTopology::PATCH_LIST,
-                patch_control_points: 1,
-                color_formats: &[RADIANCE_FORMAT],
-                depth: Some(DepthState {
-                    format: DEPTH_FORMAT,
-                    compare: vk::CompareOp::GREATER,
-                    write: true,
-                    bias: None,
-                }),
-                samples,
-                set_layouts: &self.layouts(),
-                ..Default::default()
-            },
-        )
+    /// Decides on the draws of the pictures that follow: `plan` is asked for each fabric's strands.
+    pub fn plan(&mut self, plan: impl Fn(usize, Strands) -> DrawPlan) {
+        for draws in &mut self.draws {
+            draws.plan = plan(draws.fabric, draws.strands);
+        }
     }
 
     /// How many passes a frame is drawn in, so that none draws many more than `curves` fiber curves:
     /// between them a user hears of progress, and a device's watchdog is content.
     pub fn parts(&self, curves: u64) -> usize {
-        let total: u64 = self.fabrics.iter().map(|fabric| fabric.plan.curves()).sum();
+        let total: u64 = self.draws.iter().map(|draw| draw.plan.curves()).sum();
         usize::try_from(total.div_ceil(curves.max(1)))
             .unwrap_or(usize::MAX)
             .clamp(1, self.draw_count().max(1))
     }
 
     fn draw_count(&self) -> usize {
-        self.fabrics.iter().map(|fabric| fabric.plan.draws().count()).sum()
+        self.draws.iter().map(|draw| draw.plan.draw_count()).sum()
     }
 
     /// Draws the `part`-th of `parts` equal parts of all fabrics into the targets' frame. The first part
@@ -210,17 +200,17 @@ impl FibersPass {
     /// Records the draws whose place among those of all fabrics lies in `range`.
     fn draw(&self, commands: &Commands<'_>, range: Range<usize>) {
         let mut before = 0;
-        for fabric in &self.fabrics {
-            let count = fabric.plan.draws().count();
+        for draws in &self.draws {
+            let count = draws.plan.draw_count();
             let start = range.start.clamp(before, before + count) - before;
             let end = range.end.clamp(before, before + count) - before;
             before += count;
             if start == end {
                 continue;
             }
-            commands.bind_pipeline(&fabric.pipeline);
-            commands.bind_sets(&fabric.pipeline, &[&self.frame_set, &fabric.set]);
-            for draw in fabric.plan.draws().take(end).skip(start) {
+            commands.bind_pipeline(&draws.pipeline);
+            commands.bind_sets(&draws.pipeline, &[&self.frame_set, &self.fabrics[draws.fabric]]);
+            for draw in draws.plan.draws().take(end).skip(start) {
                 commands.draw(draw.patches, draw.groups, draw.first_patch, draw.first_group);
             }
         }
@@ -234,11 +224,3 @@ const COUNTING: Access = Access {
         vk::AccessFlags2::SHADER_READ.as_raw() | vk::AccessFlags2::SHADER_WRITE.as_raw(),
     ),
 };
-
-/// The features as specialization constants.
-pub fn specialization(features: &Features) -> SpecializationConstants {
-    features
-        .specialization()
-        .into_iter()
-        .fold(SpecializationConstants::new(), |constants, (id, value)| constants.u32(id as u32, value))
-}

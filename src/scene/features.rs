@@ -1,7 +1,7 @@
 //! Scene to features: the only place that leaves things out.
 
 use super::Fabric;
-use super::file::{DebugView, OcclusionMode, SceneFile};
+use super::file::{DebugView, FibersShown, OcclusionMode, SceneFile};
 use crate::math::curve::Basis;
 use crate::yarn::flyaway::Flyaways;
 use std::collections::BTreeMap;
@@ -28,6 +28,14 @@ pub struct Features {
     pub debug_view: DebugView,
     /// Loops or hairs exist.
     pub flyaways: bool,
+    /// Core fibers stand for some of the fibers.
+    pub core_fibers: bool,
+    /// And are drawn.
+    pub core_fibers_drawn: bool,
+    /// Fewer fibers are drawn where they are small in the picture.
+    pub level_of_detail: bool,
+    /// Fibers are drawn one by one.
+    pub regular_fibers: bool,
 }
 
 /// Specialization constants of `glsl/shared/features.glsl`.
@@ -44,12 +52,17 @@ pub enum SpecializationId {
     Light = 6,
     DebugView = 7,
     Flyaways = 8,
+    CoreFibers = 9,
+    LevelOfDetail = 10,
+    Samples = 11,
+    RegularFibers = 12,
 }
 
 impl Features {
     /// What `fabric` needs in this scene; `statistics` when someone asked for them.
     pub fn new(file: &SceneFile, fabric: &Fabric, statistics: bool) -> Self {
         let shaded = file.debug.view == DebugView::Shaded;
+        let shown = file.debug.fibers;
         let some = |rgb: [f64; 3]| rgb.iter().any(|&c| c > 0.0);
         let ambient = shaded && some(file.ambient.radiance);
         let light = shaded && file.light().iter().any(|light| some(light.irradiance));
@@ -64,11 +77,16 @@ impl Features {
             light,
             debug_view: file.debug.view,
             flyaways: Flyaways::new(&fabric.yarn).exist(),
+            core_fibers: shown != FibersShown::Every,
+            core_fibers_drawn: matches!(shown, FibersShown::Both | FibersShown::Core),
+            level_of_detail: file.quality.level_of_detail && shown != FibersShown::Every,
+            regular_fibers: shown != FibersShown::Core,
         }
     }
 
-    /// Identifier and value of every specialization constant, booleans as 0 and 1.
-    pub fn specialization(&self) -> [(SpecializationId, u32); 9] {
+    /// Identifier and value of every specialization constant, booleans as 0 and 1, for frames of `samples`
+    /// samples a pixel.
+    pub fn specialization(&self, samples: u32) -> [(SpecializationId, u32); 13] {
         use SpecializationId as Id;
         [
             (Id::Basis, self.basis as u32),
@@ -80,6 +98,10 @@ impl Features {
             (Id::Light, self.light.into()),
             (Id::DebugView, self.debug_view as u32),
             (Id::Flyaways, self.flyaways.into()),
+            (Id::CoreFibers, self.core_fibers.into()),
+            (Id::LevelOfDetail, self.level_of_detail.into()),
+            (Id::Samples, samples),
+            (Id::RegularFibers, self.regular_fibers.into()),
         ]
     }
 
@@ -102,6 +124,13 @@ impl Features {
             if self.ambient { "occlusion.mode is none" } else { "no ambient light to dim" },
         );
         leave(!self.flyaways, "flyaways", "the yarn has neither loops nor hairs");
+        leave(!self.core_fibers, "core_fibers", "debug.fibers is every: no fiber is left to stand for");
+        leave(!self.regular_fibers, "regular_fibers", "debug.fibers is core");
+        leave(
+            !self.level_of_detail,
+            "level_of_detail",
+            if self.core_fibers { "quality.level_of_detail is false" } else { "debug.fibers is every" },
+        );
         leave(!self.culling, "culling", "quality.culling is false");
         leave(!self.statistics, "statistics", "no one asked for them");
         out
@@ -143,6 +172,13 @@ mod tests {
         assert!(!no_light.light && !no_light.specular && no_light.ambient);
         let matte = features(|_, fabric| fabric.fiber.specular = [0.0; 3]);
         assert!(!matte.specular && matte.light);
+        let every = features(|file, _| file.debug.fibers = FibersShown::Every);
+        assert!(!every.core_fibers && !every.level_of_detail && every.regular_fibers);
+        assert!(every.left_out().contains_key("core_fibers"));
+        let core = features(|file, _| file.debug.fibers = FibersShown::Core);
+        assert!(core.core_fibers && !core.regular_fibers && core.left_out().contains_key("regular_fibers"));
+        let whole = features(|file, _| file.quality.level_of_detail = false);
+        assert!(!whole.level_of_detail && whole.core_fibers);
         let view = features(|file, _| file.debug.view = DebugView::Normal);
         assert!(!view.light && !view.ambient && view.left_out().contains_key("shading"));
     }

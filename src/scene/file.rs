@@ -181,6 +181,20 @@ pub enum OcclusionMode {
 pub struct QualityTable {
     /// Leave out pieces of yarn outside the picture.
     pub culling: bool,
+    /// Draw fewer fibers, and thicker cores, where they are small in the picture.
+    pub level_of_detail: bool,
+    /// Width of a fiber above which nothing is simplified, and of a ply below which only its core fiber is drawn
+    /// (Wu & Yuksel 2019, Eq. 4), in distances between a pixel's samples, 0.01 to 10000: what samples cannot
+    /// tell apart need not be drawn. 2 is one pixel at 4 samples.
+    pub lod_threshold_samples: f64,
+    /// Narrowest that level of detail draws a fiber, in distances between a pixel's samples, 0.01 to 10: of
+    /// thinner ones some are dropped and the rest drawn this wide, so that they cover as much.
+    pub thin_fiber_samples: f64,
+    /// A core fiber always stands for the innermost fibers of a ply, as many as make up no more than this
+    /// share of what is seen of the ply, 0 to 1.
+    pub core_visible_share: f64,
+    /// Texels across a core fiber's texture, 8 to 512.
+    pub core_texture_rows: u32,
     /// How far the straight pieces of a fiber may depart from its curve, in pixels, 0.001 to 100.
     pub subdivision_tolerance_px: f64,
     /// Most pieces a fiber is cut into over one piece of yarn, 1 to 64.
@@ -195,6 +209,11 @@ impl Default for QualityTable {
     fn default() -> Self {
         Self {
             culling: true,
+            level_of_detail: true,
+            lod_threshold_samples: 2.0,
+            thin_fiber_samples: 1.0,
+            core_visible_share: 0.02,
+            core_texture_rows: 64,
             subdivision_tolerance_px: 0.2,
             max_subdivisions: 32,
             patches_per_draw: None,
@@ -225,6 +244,23 @@ impl Default for DisplayTable {
 pub struct DebugTable {
     /// What fibers are coloured by.
     pub view: DebugView,
+    /// Which fibers are drawn.
+    pub fibers: FibersShown,
+}
+
+/// Which fibers are drawn (Wu & Yuksel 2019, Fig. 9).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FibersShown {
+    /// Core fibers, and regular fibers around them.
+    #[default]
+    Both,
+    /// Core fibers alone.
+    Core,
+    /// Regular fibers alone, without those that the core stands for.
+    Regular,
+    /// Every fiber and no core, at full detail: what the others approximate.
+    Every,
 }
 
 /// What fibers are coloured by. The numbers are those of `glsl/passes/fibers.frag`.
@@ -248,6 +284,9 @@ pub enum DebugView {
     Frame = 6,
     /// Rest length along the yarn: the colours repeat every 10 mm, with a dark ring at every one.
     Length = 7,
+    /// Share of its fibers that a yarn is drawn with: red all, blue the cores alone (Wu & Yuksel 2019,
+    /// Fig. 11).
+    LevelOfDetail = 8,
 }
 
 /// Accepts `[fabric]` and `[[fabric]]` alike.

@@ -62,6 +62,14 @@ impl SceneFile {
             range("camera.target_mm", c, -1e9, 1e9)?;
         }
         range("quality.subdivision_tolerance_px", self.quality.subdivision_tolerance_px, 1e-3, 100.0)?;
+        range("quality.lod_threshold_samples", self.quality.lod_threshold_samples, 0.01, 1e4)?;
+        range("quality.thin_fiber_samples", self.quality.thin_fiber_samples, 0.01, 10.0)?;
+        range("quality.core_visible_share", self.quality.core_visible_share, 0.0, 1.0)?;
+        let rows = self.quality.core_texture_rows;
+        if !(8..=512).contains(&rows) || !rows.is_power_of_two() {
+            let message = format!(" = {rows}: allowed is a power of two from 8 to 512");
+            return Err(KeyError::new("quality.core_texture_rows", message));
+        }
         range("quality.max_subdivisions", f64::from(self.quality.max_subdivisions), 1.0, 64.0)?;
         range("quality.patches_per_draw", f64::from(self.quality.patches_per_draw.unwrap_or(1)), 1.0, 1e9)
     }

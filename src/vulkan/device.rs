@@ -289,6 +289,8 @@ fn create_raw(
     let mut v13 = vk::PhysicalDeviceVulkan13Features::default()
         .dynamic_rendering(true)
         .synchronization2(true)
+        // Every 1.3 device has it; glslang's 1.3 target makes it of `discard`.
+        .shader_demote_to_helper_invocation(true)
         // Every 1.3 device has it; glslang's 1.3 target may use LocalSizeId.
         .maintenance4(true);
     let priorities = [1.0];

@@ -36,6 +36,15 @@ impl Image {
     /// # Errors
     /// [`VulkanError::Misuse`] for a format without a known texel size, or several samples.
     pub fn host_bytes(&self) -> Result<u64, VulkanError> {
+        self.host_bytes_of(0)
+    }
+
+    /// Width, height and depth of a mip level.
+    fn extent_of(&self, mip_level: u32) -> [u32; 3] {
+        self.extent().map(|side| (side >> mip_level).max(1))
+    }
+
+    fn host_bytes_of(&self, mip_level: u32) -> Result<u64, VulkanError> {
         let unknown =
             || VulkanError::misuse(format!("image `{}`: host copy of {:?}", self.name(), self.format()));
         let texel = texel_bytes(self.format()).ok_or_else(unknown)?;
@@ -45,17 +54,19 @@ impl Image {
                 self.name()
             )));
         }
-        let mut counts = self.extent().into_iter().chain([self.layers()]).map(u64::from);
+        let mut counts = self.extent_of(mip_level).into_iter().chain([self.layers()]).map(u64::from);
         counts.try_fold(texel, u64::checked_mul).ok_or_else(|| VulkanError::OutOfMemory {
             what: format!("host copy of image `{}`", self.name()),
             bytes: u64::MAX,
         })
     }
 
-    fn copy_region(&self) -> vk::BufferImageCopy {
-        let [width, height, depth] = self.extent();
-        let layers =
-            vk::ImageSubresourceLayers::default().aspect_mask(self.aspect()).layer_count(self.layers());
+    fn copy_region(&self, mip_level: u32) -> vk::BufferImageCopy {
+        let [width, height, depth] = self.extent_of(mip_level);
+        let layers = vk::ImageSubresourceLayers::default()
+            .aspect_mask(self.aspect())
+            .mip_level(mip_level)
+            .layer_count(self.layers());
         vk::BufferImageCopy::default().image_subresource(layers).image_extent(vk::Extent3D {
             width,
             height,
@@ -69,18 +80,42 @@ impl Image {
     /// # Errors
     /// [`VulkanError::Misuse`] if the data has another size; those of a submission.
     pub fn upload<T: Pod>(&self, texels: &[T], state: ImageState) -> Result<(), VulkanError> {
-        let (expected, found) = (self.host_bytes()?, size_of_val(texels));
-        if u64::try_from(found) != Ok(expected) {
-            let what = format!("image `{}` takes {expected} bytes, {found} given", self.name());
+        self.upload_mips(&[texels], state)
+    }
+
+    /// The same for the first mip levels, the whole size first, each with all layers tightly packed.
+    ///
+    /// # Errors
+    /// [`VulkanError::Misuse`] if there are too many levels, or one has another size; those of a submission.
+    pub fn upload_mips<T: Pod>(&self, levels: &[&[T]], state: ImageState) -> Result<(), VulkanError> {
+        if levels.len() > self.mip_levels() as usize {
+            let what = format!(
+                "image `{}` has {} mip levels, {} given",
+                self.name(),
+                self.mip_levels(),
+                levels.len()
+            );
             return Err(VulkanError::misuse(what));
         }
         let name = format!("staging for {}", self.name());
-        let usage = vk::BufferUsageFlags::empty();
-        let staging = Buffer::new(self.device(), &name, expected, usage, MemoryKind::Upload)?;
-        staging.write(0, texels)?;
+        let mut staged = Vec::new();
+        for (level, texels) in (0..).zip(levels) {
+            let (expected, found) = (self.host_bytes_of(level)?, size_of_val(*texels));
+            if u64::try_from(found) != Ok(expected) {
+                let what =
+                    format!("image `{}` takes {expected} bytes at level {level}, {found} given", self.name());
+                return Err(VulkanError::misuse(what));
+            }
+            let usage = vk::BufferUsageFlags::empty();
+            let staging = Buffer::new(self.device(), &name, expected, usage, MemoryKind::Upload)?;
+            staging.write(0, texels)?;
+            staged.push(staging);
+        }
         self.device().run_once(&name, |cmd| {
             cmd.image_barrier(self, ImageState::UNDEFINED, ImageState::TRANSFER_DST);
-            cmd.copy_buffer_to_image(&staging, self);
+            for (level, staging) in (0..).zip(&staged) {
+                cmd.copy_buffer_to_image(staging, self, level);
+            }
             cmd.image_barrier(self, ImageState::TRANSFER_DST, state);
             Ok(())
         })?;
@@ -115,12 +150,12 @@ impl Image {
 }
 
 impl Commands<'_> {
-    /// Copies tightly packed texels into mip level 0 of an image in layout `TRANSFER_DST_OPTIMAL`.
-    pub fn copy_buffer_to_image(&self, from: &Buffer, to: &Image) {
+    /// Copies tightly packed texels into a mip level of an image in layout `TRANSFER_DST_OPTIMAL`.
+    pub fn copy_buffer_to_image(&self, from: &Buffer, to: &Image, mip_level: u32) {
         self.keep_buffer(from);
         self.keep(to.inner.clone());
         let layout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
-        let region = [to.copy_region()];
+        let region = [to.copy_region(mip_level)];
         // SAFETY: recording is open; buffer and image are kept until the fence.
         unsafe {
             self.device().raw().cmd_copy_buffer_to_image(self.raw(), from.raw(), to.raw(), layout, &region)
@@ -132,7 +167,7 @@ impl Commands<'_> {
         self.keep(from.inner.clone());
         self.keep_buffer(to);
         let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
-        let region = [from.copy_region()];
+        let region = [from.copy_region(0)];
         // SAFETY: recording is open; image and buffer are kept until the fence.
         unsafe {
             self.device().raw().cmd_copy_image_to_buffer(self.raw(), from.raw(), layout, to.raw(), &region)

@@ -70,6 +70,10 @@ pub struct FiberPoint {
     pub yarn_normal: DVec3,
     /// The ply's centre at the same t.
     pub ply_center: DVec3,
+    /// Unit, from the yarn's centre to the ply's.
+    pub ply_normal: DVec3,
+    /// Unit, around the yarn.
+    pub ply_binormal: DVec3,
     /// The fiber's own centre.
     pub position: DVec3,
     /// Unit direction of the fiber.
@@ -78,6 +82,8 @@ pub struct FiberPoint {
     pub center_distance: f64,
     /// Share of the fiber's full width.
     pub width: f64,
+    /// R: distance from the ply's centre as a share of its ellipse.
+    pub radius: f64,
 }
 
 /// Rotations at t of a piece.
@@ -153,11 +159,14 @@ pub fn fiber_point(
     FiberPoint {
         yarn_center: yarn_at.center,
         yarn_normal: yarn_at.normal,
+        ply_normal: normal_ply,
+        ply_binormal: binormal_ply,
         ply_center: yarn_at.center + yarn.ply_offset_mm() * normal_ply,
         position: yarn_at.center + from_center,
         tangent: direction_or(velocity, yarn_at.tangent),
         center_distance: away.hypot(offset.y),
         width: shape.width,
+        radius: shape.radius,
     }
 }
 

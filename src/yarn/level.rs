@@ -25,6 +25,8 @@ pub struct Cutting {
     pub ellipse_long_mm: f64,
     /// Largest departure of a chord from the curve.
     pub tolerance_mm: f64,
+    /// Least pieces a turn.
+    pub per_turn: f64,
     /// Most pieces.
     pub largest: u32,
 }
@@ -32,7 +34,7 @@ pub struct Cutting {
 /// Pieces a fiber is cut into over the Bezier piece `b` of yarn, so that no chord departs from the
 /// curve by more than the tolerance. Over an angle a at radius r, n chords depart by r a^2 / (8 n^2);
 /// the plies' rotation about the yarn, the fibers' about the ply and the bend of the centre line add
-/// up. At least 6 pieces a turn, whose directions shading can interpolate; 1 to `largest`.
+/// up. At least `per_turn` pieces a turn, whose directions shading can interpolate; 1 to `largest`.
 pub fn subdivisions(b: &[DVec3; 4], cutting: &Cutting) -> u32 {
     let legs = [b[1] - b[0], b[2] - b[1], b[3] - b[2]];
     let bend = turning_angle(legs[0], legs[1]) + turning_angle(legs[1], legs[2]);
@@ -42,7 +44,7 @@ pub fn subdivisions(b: &[DVec3; 4], cutting: &Cutting) -> u32 {
     let departure =
         (cutting.ply_offset_mm * ply * ply + cutting.ellipse_long_mm * fiber * fiber + length_mm * bend)
             / 8.0;
-    let smooth_pieces = (ply.abs() + fiber.abs() + bend) * (6.0 / TAU);
+    let smooth_pieces = (ply.abs() + fiber.abs() + bend) * (cutting.per_turn / TAU);
     let pieces = (departure / cutting.tolerance_mm.max(1e-12)).sqrt().max(smooth_pieces);
     pieces.ceil().clamp(1.0, f64::from(cutting.largest)) as u32
 }
@@ -53,10 +55,11 @@ pub fn period_pieces(pieces: u32, periods: f64, largest: u32) -> u32 {
     (4.0 * periods.abs()).ceil().clamp(f64::from(pieces.min(largest)), f64::from(largest)) as u32
 }
 
-/// Distance from `eye` to the nearest control point of `b`, less `margin`, at least `nearest`.
-pub fn nearest_distance(b: &[DVec3; 4], eye: DVec3, margin: f64, nearest: f64) -> f64 {
-    let distance = b.iter().map(|p| p.distance(eye)).fold(f64::INFINITY, f64::min);
-    (distance - margin).max(nearest)
+/// Depth of the nearest control point of `b` along the view axis, less `margin`, at least `nearest`; a
+/// point's depth is depth.xyz . p + depth.w.
+pub fn nearest_depth(b: &[DVec3; 4], depth: DVec4, margin: f64, nearest: f64) -> f64 {
+    let least = b.iter().map(|p| depth.truncate().dot(*p)).fold(f64::INFINITY, f64::min);
+    (least + depth.w - margin).max(nearest)
 }
 
 /// Whether everything within `margin` of the Bezier curve `b` lies outside one of the inward planes.
@@ -74,6 +77,7 @@ mod tests {
         ply_offset_mm: 0.4,
         ellipse_long_mm: 0.3,
         tolerance_mm: 0.01,
+        per_turn: 6.0,
         largest: 64,
     };
 
@@ -125,8 +129,8 @@ mod tests {
     #[test]
     fn distance_is_to_the_nearest_control_point() {
         let b = [1.0, 2.0, 3.0, 4.0].map(|x| DVec3::X * x);
-        assert_eq!(nearest_distance(&b, DVec3::ZERO, 0.25, 0.1), 0.75);
-        assert_eq!(nearest_distance(&b, DVec3::X, 0.25, 0.1), 0.1);
+        assert_eq!(nearest_depth(&b, DVec4::new(1.0, 0.0, 0.0, 0.0), 0.25, 0.1), 0.75);
+        assert_eq!(nearest_depth(&b, DVec4::new(1.0, 0.0, 0.0, -1.0), 0.25, 0.1), 0.1);
     }
 
     #[test]

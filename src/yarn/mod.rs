@@ -2,7 +2,9 @@
 
 pub mod breaks;
 pub mod contact;
+pub mod core;
 pub mod density;
+pub mod detail;
 pub mod fetch;
 pub mod fiber;
 pub mod flyaway;

@@ -146,6 +146,8 @@ fn twin(args: &mut Args<'_>) -> Vec<Part> {
     let floor = at.center.length().max(yarn.outer_radius_mm() * shape.radius.max(1.0));
     vec![
         vector("ply center", f.ply_center, floor),
+        vector("ply normal", f.ply_normal, 1.0),
+        vector("ply binormal", f.ply_binormal, 1.0),
         vector("position", f.position, floor),
         vector("tangent", f.tangent, 1.0),
         number("center distance", f.center_distance, 1e-3 * yarn.outer_radius_mm()),
@@ -156,5 +158,5 @@ fn twin(args: &mut Args<'_>) -> Vec<Part> {
 pub fn case() -> Case {
     let mut rows = random_rows("fiber_point", |random| Arguments::random(random).into_row());
     rows.extend(extremes().into_iter().map(Arguments::into_row));
-    Case { function: "fiber_point", rows, twin, invariant: Some(|_, found| is_unit(&found[6..9])) }
+    Case { function: "fiber_point", rows, twin, invariant: Some(|_, found| is_unit(&found[12..15])) }
 }

@@ -276,28 +276,17 @@ fn is_broken() -> Case {
 /// The period the fiber is in at the place that the arguments name, and a neighbour within a period of it.
 fn meets_tip() -> Case {
     let make = |random: &mut Random| {
-        let segment = row().segment(random.below(2000), 7, 0, random.between(0.0, 1.0), 1.0);
-        let hairy = Random::of(&format!("{}", random.bits()));
-        let index = 14 + random.below(3);
-        let u = f64::from(index) - 14.0 + random.between(0.0, 1.0);
-        let fiber = segment.random_fiber(random);
-        let placed = fiber.bits(random.below(600)).bits(index).real(u).real(u + random.between(-1.0, 1.0));
-        // Two periods to a migration, so that the piece's base is the period 14.
-        let mut row = placed.random_hairy(&mut { hairy }).end();
-        let last = row.len() - 2;
-        row[last] = crate::harness::Word::Bits(2);
-        row
+        let base = random.below(2000);
+        let u = random.between(-1.0, 2.0);
+        let index = base + random.below(2);
+        let placed = row().period(random, index).bits(base);
+        placed.real(u).real(u + random.between(-1.0, 1.0)).end()
     };
     case("meets_tip", make, |args| {
-        let (strand, fiber, fiber_index) = (args.strand(), args.fiber(), args.bits());
-        let index = args.bits() as i32;
-        let (u, neighbour, hairy) = (args.real(), args.real(), args.hairy());
-        let drawn = {
-            let periods = with_periods(&strand, &hairy);
-            period::draw_period(&periods, &fiber, fiber_index, index, &hairy.flyaways)
-        };
-        let tip = breaks::meets_tip(&drawn, u + 14.0, neighbour + 14.0);
-        vec![truth("meets", tip.is_some()), number("tip", tip.map_or(0.0, |tip| tip - 14.0), 1.0)]
+        let (drawn, base) = (args.period(), f64::from(args.bits()));
+        let (u, neighbour) = (args.real(), args.real());
+        let tip = breaks::meets_tip(&drawn, u + base, neighbour + base);
+        vec![truth("meets", tip.is_some()), number("tip", tip.map_or(0.0, |tip| tip - base), 1.0)]
     })
 }
 

@@ -63,9 +63,20 @@ impl RowBuilder {
     }
 
     pub fn random_period(self, random: &mut Random) -> Self {
-        let kind = random.below(3);
-        let placed = self.bits((random.below(2000) as i32 - 1000) as u32).bits(kind);
-        let drawn = placed.real(random.between(0.0, 4.0)).real(random.between(0.02, 0.9));
+        let kind = KINDS[random.below(3) as usize];
+        let index = random.below(2000) as i32 - 1000;
+        self.drawn_period(random, index as u32, kind)
+    }
+
+    /// As [`Self::random_period`] with this index, and a hair in most rows.
+    pub fn period(self, random: &mut Random, index: u32) -> Self {
+        let kind = if random.below(4) == 0 { KINDS[random.below(3) as usize] } else { Kind::Hair };
+        self.drawn_period(random, index, kind)
+    }
+
+    fn drawn_period(self, random: &mut Random, index: u32, kind: Kind) -> Self {
+        let drawn =
+            self.bits(index).bits(kind as u32).real(random.between(0.0, 4.0)).real(random.between(0.02, 0.9));
         drawn.real(random.between(-6.0, 6.0)).bits(random.below(2))
     }
 }

@@ -4,6 +4,9 @@
 
 mod bsdf_cases;
 mod completeness;
+mod core_cases;
+mod coverage_cases;
+mod detail_cases;
 #[path = "../support/device.rs"]
 mod device;
 mod fiber_case;
@@ -24,6 +27,9 @@ fn cases() -> Vec<Case> {
     all.extend(yarn_cases::cases());
     all.push(fiber_case::case());
     all.extend(flyaway_cases::cases());
+    all.extend(detail_cases::cases());
+    all.extend(core_cases::cases());
+    all.extend(coverage_cases::cases());
     all.extend(bsdf_cases::cases());
     all
 }

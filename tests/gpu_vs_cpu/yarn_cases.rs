@@ -13,7 +13,7 @@ const FACTOR_FLOOR: f64 = 1e-3;
 
 pub fn cases() -> Vec<Case> {
     let mut all = vec![migration_radius(), turning_angle(), subdivisions(), outside_frustum()];
-    all.extend([period_pieces(), nearest_distance()]);
+    all.extend([period_pieces(), nearest_depth()]);
     all.extend([piece_tangent(), turned_normal(), twist_at(), yarn_point()]);
     all
 }
@@ -74,13 +74,20 @@ fn cutting(random: &mut Random, size: f64) -> Cutting {
         ply_offset_mm: size * random.between(0.0, 1.0),
         ellipse_long_mm: size * random.between(0.1, 1.0),
         tolerance_mm: size * random.magnitude(1e-4, 1.0),
+        per_turn: random.between(0.0, 12.0),
         largest: 1 + random.below(64),
     }
 }
 
 fn cut_row(b: &[DVec3; 4], c: &Cutting) -> Row {
     let turns = row().piece(b).real(c.ply_turns).real(c.fiber_turns);
-    turns.real(c.ply_offset_mm).real(c.ellipse_long_mm).real(c.tolerance_mm).bits(c.largest).end()
+    turns
+        .real(c.ply_offset_mm)
+        .real(c.ellipse_long_mm)
+        .real(c.tolerance_mm)
+        .real(c.per_turn)
+        .bits(c.largest)
+        .end()
 }
 
 fn subdivisions() -> Case {
@@ -92,7 +99,8 @@ fn subdivisions() -> Case {
             let count = |turns: f64, tolerance: f64| {
                 let (ply_turns, fiber_turns) = (c.ply_turns * turns, c.fiber_turns * turns);
                 let tolerance_mm = c.tolerance_mm * tolerance;
-                level::subdivisions(&b, &Cutting { ply_turns, fiber_turns, tolerance_mm, ..c })
+                let per_turn = c.per_turn * turns;
+                level::subdivisions(&b, &Cutting { ply_turns, fiber_turns, tolerance_mm, per_turn, ..c })
             };
             if count(1.0 + 1e-4, 1.0 - 1e-4) == count(1.0 - 1e-4, 1.0 + 1e-4) {
                 return cut_row(&b, &c);
@@ -105,15 +113,18 @@ fn subdivisions() -> Case {
         ply_offset_mm: 0.4,
         ellipse_long_mm: 0.3,
         tolerance_mm: 0.0123,
+        per_turn: 6.1,
         largest: 64,
     };
-    let edits: [fn(&mut Cutting); 6] = [
+    let edits: [fn(&mut Cutting); 8] = [
         |_| {},
         |c| (c.ply_turns, c.fiber_turns) = (0.0, 0.0),
         |c| (c.ply_turns, c.fiber_turns) = (1e6, -1e6),
         |c| c.tolerance_mm = 0.0,
         |c| c.tolerance_mm = 1e6,
         |c| c.largest = 1,
+        |c| c.per_turn = 0.0,
+        |c| c.per_turn = 1e6,
     ];
     for edit in edits {
         let mut c = usual;
@@ -131,6 +142,7 @@ fn subdivisions() -> Case {
                 ply_offset_mm: args.real(),
                 ellipse_long_mm: args.real(),
                 tolerance_mm: args.real(),
+                per_turn: args.real(),
                 largest: args.bits(),
             };
             vec![number("pieces", level::subdivisions(&b, &c).into(), 1.0)]
@@ -156,29 +168,30 @@ fn period_pieces() -> Case {
     }
 }
 
-fn nearest_distance() -> Case {
-    let mut rows = random_rows("nearest_distance", |random| {
+fn nearest_depth() -> Case {
+    let depth_row = |b: &[DVec3; 4], depth: DVec4, margin: f64, nearest: f64| {
+        row().piece(b).vec3(depth.truncate()).real(depth.w).real(margin).real(nearest).end()
+    };
+    let mut rows = random_rows("nearest_depth", |random| {
         let b = random.piece();
         let size = largest_difference(&b);
         let eye = b[random.below(4) as usize] + random.unit() * size * random.magnitude(1e-3, 1e3);
-        row().piece(&b).vec3(eye).real(size * random.between(0.0, 1.0)).real(size * 1e-2).end()
+        let axis = random.unit();
+        depth_row(&b, axis.extend(-axis.dot(eye)), size * random.between(0.0, 1.0), size * 1e-2)
     });
     for b in special_pieces() {
         rows.extend(
-            [b[0], b[3] + DVec3::Z, DVec3::splat(1e6)]
-                .map(|eye| row().piece(&b).vec3(eye).real(0.5).real(0.1).end()),
+            [DVec3::X.extend(0.0), DVec3::NEG_Z.extend(1.0), DVec3::Y.extend(1e6), DVec4::ZERO]
+                .map(|depth| depth_row(&b, depth, 0.5, 0.1)),
         );
     }
     Case {
-        function: "nearest_distance",
+        function: "nearest_depth",
         rows,
         twin: |args| {
             let b = args.piece();
-            vec![number(
-                "distance",
-                level::nearest_distance(&b, args.vec3(), args.real(), args.real()),
-                1e-12,
-            )]
+            let depth = level::nearest_depth(&b, args.vec4(), args.real(), args.real());
+            vec![number("depth", depth, 1e-12)]
         },
         invariant: None,
     }

@@ -7,6 +7,7 @@ use worsted::math::curve::Basis;
 use worsted::math::{frame, tone};
 use worsted::scene::features::Features;
 use worsted::scene::file::DebugView;
+use worsted::yarn::detail::CORE_LEVELS;
 
 /// Identifier and name of each specialization constant as Rust has them: `DebugView` is `DEBUG_VIEW`.
 fn rust_specialization() -> Vec<(u32, String)> {
@@ -20,8 +21,12 @@ fn rust_specialization() -> Vec<(u32, String)> {
         light: false,
         debug_view: DebugView::Shaded,
         flyaways: false,
+        core_fibers: false,
+        core_fibers_drawn: false,
+        level_of_detail: false,
+        regular_fibers: false,
     };
-    features.specialization().map(|(id, _)| (id as u32, screaming(&format!("{id:?}")))).to_vec()
+    features.specialization(1).map(|(id, _)| (id as u32, screaming(&format!("{id:?}")))).to_vec()
 }
 
 fn screaming(camel: &str) -> String {
@@ -114,16 +119,30 @@ fn plain_constants_are_equal() {
         ("BASIS_POLYLINE", Basis::Polyline),
     ]
     .map(|(name, basis)| (name, f64::from(basis as u32)));
-    let files: [(&str, &[(&str, f64)]); 4] = [
+    let views = [
+        ("VIEW_SHADED", DebugView::Shaded),
+        ("VIEW_NORMAL", DebugView::Normal),
+        ("VIEW_TANGENT", DebugView::Tangent),
+        ("VIEW_OCCLUSION", DebugView::Occlusion),
+        ("VIEW_PLY", DebugView::Ply),
+        ("VIEW_KIND", DebugView::Kind),
+        ("VIEW_FRAME", DebugView::Frame),
+        ("VIEW_LENGTH", DebugView::Length),
+        ("VIEW_LEVEL_OF_DETAIL", DebugView::LevelOfDetail),
+    ]
+    .map(|(name, view)| (name, f64::from(view as u32)));
+    let files: [(&str, &[(&str, f64)]); 5] = [
         (
             "glsl/shared/constants.glsl",
             &[
                 ("PI", PI),
                 ("TWO_PI", TAU),
                 ("FIBERS_PER_PATCH", f64::from(FIBERS_PER_PATCH)),
+                ("CORE_LEVELS", f64::from(CORE_LEVELS)),
                 ("LENGTH_STRIPE", f64::from(LENGTH_STRIPE)),
             ],
         ),
+        ("glsl/shared/debug_views.glsl", &views),
         ("glsl/lib/curve.glsl", &bases),
         ("glsl/lib/frame.glsl", &[("NO_DIRECTION", frame::NO_DIRECTION)]),
         ("glsl/lib/tone.glsl", &[("TONE_KNEE", tone::TONE_KNEE)]),

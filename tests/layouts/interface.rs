@@ -1,7 +1,7 @@
 //! Bindings and push constants: what shaders declare against what the passes make.
 
 use crate::device::shared;
-use crate::reflection::{self, Descriptor, Layout, Member};
+use crate::reflection::{self, Descriptor, Layout, Member, Reflected};
 use crate::structs::differences;
 use crate::text_of;
 use spirq::ty::DescriptorType;
@@ -46,12 +46,17 @@ fn fiber_sets() -> Vec<Vec<Binding>> {
     pass.layouts().map(|layout| layout.bindings().to_vec()).to_vec()
 }
 
+/// The shaders that read the sets of the fiber pass: those of single fibers and of cores.
+fn draws_strands(shader: &Reflected) -> bool {
+    shader.path.starts_with("passes/fibers.") || shader.path.starts_with("passes/core.")
+}
+
 #[test]
 fn bindings_of_the_fiber_shaders_are_those_of_the_pass() {
     let sets = fiber_sets();
-    assert_eq!(sets.iter().map(Vec::len).collect::<Vec<_>>(), [2, 4]);
+    assert_eq!(sets.iter().map(Vec::len).collect::<Vec<_>>(), [2, 7]);
     let mut seen = Vec::new();
-    for shader in reflection::all().iter().filter(|shader| shader.path.starts_with("passes/fibers.")) {
+    for shader in reflection::all().iter().filter(|shader| draws_strands(shader)) {
         for descriptor in &shader.descriptors {
             assert_eq!(mismatch(descriptor, &sets), None, "{}", shader.path);
             seen.push((descriptor.set, descriptor.binding));
@@ -77,9 +82,15 @@ fn a_moved_or_retyped_binding_is_found() {
         .iter()
         .find(|shader| shader.path == "passes/fibers.tesc")
         .and_then(|shader| shader.descriptors.iter().find(|d| (d.set, d.binding) == (1, 1)));
-    let (frame, segments) = (frame.expect("used"), segments.expect("used"));
+    let texture = shaders
+        .iter()
+        .find(|shader| shader.path == "passes/core.frag")
+        .and_then(|shader| shader.descriptors.iter().find(|d| (d.set, d.binding) == (1, 4)));
+    let (frame, segments, texture) = (frame.expect("used"), segments.expect("used"), texture.expect("used"));
     assert_eq!(mismatch(segments, &sets), None);
-    for (set, binding, kind) in [(2, 1, segments), (1, 4, segments), (0, 0, segments), (1, 0, frame)] {
+    assert_eq!(mismatch(texture, &sets), None);
+    let moved = [(2, 1, segments), (1, 4, segments), (0, 0, segments), (1, 0, frame)];
+    for (set, binding, kind) in moved.into_iter().chain([(1, 7, texture), (1, 3, texture)]) {
         let wrong = Descriptor { set, binding, kind: kind.kind.clone() };
         assert!(mismatch(&wrong, &sets).is_some(), "{wrong:?} passed");
     }

@@ -21,6 +21,7 @@ macro_rules! glsl_names {
 glsl_names! {
     f32 => "float", u32 => "uint", i32 => "int", [f32; 3] => "vec3", [f32; 4] => "vec4",
     [[f32; 4]; 4] => "mat4", [[f32; 4]; 5] => "vec4[5]",
+    [f32; 8] => "float[8]",
 }
 
 /// The GLSL name of a field's type.
@@ -92,9 +93,14 @@ pub fn layouts() -> Vec<Layout> {
             fiber_turns_per_period,
             hair_taper,
             periods_per_migration,
-            padding,
-            padding2,
-            padding3,
+            ply_radius,
+            core_ranks,
+            core_extent,
+            core_height,
+            core_rows,
+            core_columns,
+            core_thickness,
+            slot_stride,
             reach,
             occlusion,
             diffuse,
@@ -107,10 +113,14 @@ pub fn layouts() -> Vec<Layout> {
             light_direction_world,
             light_irradiance,
             ambient_radiance,
-            tolerance_per_mm,
+            tolerance_px,
             near_mm,
-            padding,
-            padding2
+            pixel_tangent,
+            lod_threshold_px,
+            thin_fiber_px,
+            index,
+            shading_spacing_px,
+            padding
         }),
         layout!(Statistics { patches_drawn, patches_culled, fiber_segments_low, fiber_segments_high }),
     ]

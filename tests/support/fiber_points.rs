@@ -3,7 +3,7 @@
 use crate::device::shared;
 use bytemuck::{Pod, Zeroable};
 use worsted::frame::Renderer;
-use worsted::passes::fibers::specialization;
+use worsted::passes::strand_pipeline::specialization;
 use worsted::scene::features::Features;
 use worsted::shaders;
 use worsted::vulkan::{
@@ -53,7 +53,7 @@ pub fn ask_device(
     let info = ComputePipelineInfo {
         name: "fiber point",
         spirv: shaders::get("test/fiber_point.comp").expect("the kernel is embedded"),
-        constants: &specialization(features),
+        constants: &specialization(features, vk::SampleCountFlags::TYPE_1),
         set_layouts: &[frame_layout, fabric_layout, &layout],
         push_constant_bytes: 0,
         cache: None,

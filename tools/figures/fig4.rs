@@ -48,7 +48,7 @@ pub fn draw(device: &Arc<Device>) -> Result<(), Error> {
         seed: 5,
         yarn: few_fibers(),
         camera: camera(SIZE, width_mm, [0.0; 3]),
-        debug: DebugTable { view: DebugView::Kind },
+        debug: DebugTable { view: DebugView::Kind, ..Default::default() },
         ..Default::default()
     };
     let line = strand(0.7 * width_mm, 0.25, |s| DVec3::X * s);

@@ -1,8 +1,13 @@
-//! Draws the pictures of docs/figures.md, one command each: `figures fig4|fig10|presets|demo`.
+//! Draws the pictures of docs/figures.md, one command each: `figures fig4|fig9|fig10|...`.
 
 mod demo;
 mod fig10;
+mod fig11;
+mod fig13;
+mod fig16;
 mod fig4;
+mod fig5;
+mod fig9;
 mod looks;
 mod presets;
 mod sheet;
@@ -23,16 +28,27 @@ fn main() -> ExitCode {
     }
 }
 
+/// Draws a figure.
+type Draw = fn(&Arc<Device>) -> Result<(), Error>;
+
+/// Every figure by its name.
+const FIGURES: [(&str, Draw); 9] = [
+    ("fig4", fig4::draw),
+    ("fig5", fig5::draw),
+    ("fig9", fig9::draw),
+    ("fig10", fig10::draw),
+    ("fig11", fig11::draw),
+    ("fig13", fig13::draw),
+    ("fig16", fig16::draw),
+    ("presets", presets::draw),
+    ("demo", demo::draw),
+];
+
 fn run(arguments: &[String]) -> Result<(), Error> {
-    let figure: fn(&Arc<Device>) -> Result<(), Error> = match arguments {
-        [name] if name == "fig4" => fig4::draw,
-        [name] if name == "fig10" => fig10::draw,
-        [name] if name == "presets" => presets::draw,
-        [name] if name == "demo" => demo::draw,
-        _ => {
-            let found = arguments.join(" ");
-            return Err(Error::Arguments(format!("expected fig4, fig10, presets or demo, found `{found}`")));
-        }
+    let found = arguments.join(" ");
+    let Some((_, figure)) = FIGURES.iter().find(|(name, _)| *name == found) else {
+        let names = FIGURES.map(|(name, _)| name).join(", ");
+        return Err(Error::Arguments(format!("expected one of {names}; found `{found}`")));
     };
     let device = Device::new(&DeviceOptions::default())?;
     figure(&device)?;

@@ -2,13 +2,12 @@
 
 use crate::looks::fiber;
 use crate::sheet::{CAPTION, Sheet};
-use crate::stage::{camera, preset, scene_of, shoot, strand};
+use crate::stage::{camera, preset, scene_of, shoot, strand, swatch};
 use embedded_graphics::text::Alignment;
 use glam::DVec3;
 use std::sync::Arc;
 use toml::Table;
 use worsted::error::Error;
-use worsted::knit::stockinette::StockinetteParams;
 use worsted::scene::Scene;
 use worsted::scene::file::{DisplayTable, SceneFile};
 use worsted::vulkan::Device;
@@ -27,16 +26,13 @@ const CROSSING_DEG: f64 = 24.0;
 const COURSES: u32 = 11;
 const WALES: u32 = 7;
 
-/// Between courses, in yarn diameters: closer than the generator's default, as hand knitting is.
-const COURSE_DIAMETERS: f64 = 2.4;
-
 /// Draws `docs/figures/presets-close.png` and `docs/figures/presets-swatch.png`.
 ///
 /// # Errors
 /// Those of the device and of the file system.
 pub fn draw(device: &Arc<Device>) -> Result<(), Error> {
     sheet(device, "presets-close", CLOSE, close_up)?;
-    sheet(device, "presets-swatch", SWATCH, swatch)
+    sheet(device, "presets-swatch", SWATCH, whole_swatch)
 }
 
 /// A scene and how many mm of it the picture's width shows.
@@ -92,11 +88,8 @@ fn close_up(name: &str) -> Result<Framed, Error> {
 }
 
 /// A small piece of stockinette, whole.
-fn swatch(name: &str) -> Result<Framed, Error> {
-    let yarn_radius_mm = preset(name)?.outer_radius_mm();
-    let course_spacing_mm = Some(COURSE_DIAMETERS * 2.0 * yarn_radius_mm);
-    let size = StockinetteParams { courses: COURSES, wales: WALES, yarn_radius_mm, ..Default::default() };
-    let knit = StockinetteParams { course_spacing_mm, ..size };
+fn whole_swatch(name: &str) -> Result<Framed, Error> {
+    let knit = swatch(preset(name)?.outer_radius_mm(), WALES, COURSES);
     let [wale_mm, _] = knit.spacing_mm();
     let width_mm = (f64::from(WALES) + 2.2) * wale_mm;
     let mut file = file(name);

@@ -6,6 +6,7 @@ use worsted::error::Error;
 use worsted::frame::{Picture, Renderer, Request};
 use worsted::io::curves::{Basis, Curve, CurveSet, UpAxis};
 use worsted::io::yarn_file::Loaded;
+use worsted::knit::stockinette::StockinetteParams;
 use worsted::scene::file::{CameraTable, FabricTable, SceneFile};
 use worsted::scene::{Fabric, Scene};
 use worsted::vulkan::Device;
@@ -14,6 +15,8 @@ use worsted::yarn::presets;
 
 /// Narrow, so that a strand is as thick at the picture's edge as in its middle.
 const FOV_Y_DEG: f64 = 12.0;
+/// Between courses, in yarn diameters: closer than the generator's default, as hand knitting is.
+pub const COURSE_DIAMETERS: f64 = 2.4;
 
 /// The preset of that name.
 ///
@@ -33,6 +36,12 @@ pub fn camera(size: [u32; 2], width_mm: f64, target_mm: [f64; 3]) -> CameraTable
         fov_y_deg: FOV_Y_DEG,
         ..Default::default()
     }
+}
+
+/// A swatch of stockinette in a yarn of that outer radius.
+pub fn swatch(yarn_radius_mm: f64, wales: u32, courses: u32) -> StockinetteParams {
+    let course_spacing_mm = Some(COURSE_DIAMETERS * 2.0 * yarn_radius_mm);
+    StockinetteParams { courses, wales, yarn_radius_mm, course_spacing_mm, ..Default::default() }
 }
 
 /// A scene of one fabric whose centre lines are given in mm.

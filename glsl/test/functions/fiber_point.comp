@@ -31,6 +31,8 @@ void run() {
     shape.width = take_float();
     FiberPoint f = fiber_point(yarn_at, twist, yarn, fiber, shape);
     give(f.ply_center);
+    give(f.ply_normal);
+    give(f.ply_binormal);
     give(f.position);
     give(f.tangent);
     give(f.center_distance);

@@ -5,7 +5,9 @@
 
 void run() {
     vec3 strength = take_vec3();
-    vec3 normal = take_vec3();
+    vec4 normals = take_vec4();
+    vec3 side = take_vec3();
+    vec3 toward = take_vec3();
     vec3 to_light = take_vec3();
-    give(simple_diffuse(strength, normal, to_light));
+    give(simple_diffuse(strength, normals, side, toward, to_light));
 }

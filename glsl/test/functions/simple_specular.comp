@@ -7,5 +7,6 @@ void run() {
     float cos_half_phi = take_float();
     float theta_h = take_float();
     float width = take_float();
-    give(simple_specular(cos_half_phi, theta_h, width));
+    float variance = take_float();
+    give(simple_specular(cos_half_phi, theta_h, width, variance));
 }

@@ -8,5 +8,6 @@ void run() {
     vec3 to_light = take_vec3();
     vec3 to_eye = take_vec3();
     float width = take_float();
-    give(simple_specular_cos(tangent, to_light, to_eye, width));
+    float variance = take_float();
+    give(simple_specular_cos(tangent, to_light, to_eye, width, variance));
 }

@@ -11,6 +11,7 @@ void run() {
     float ply_offset = take_float();
     float ellipse_long = take_float();
     float tolerance = take_float();
+    float per_turn = take_float();
     uint largest = take_uint();
-    give(float(subdivisions(b, ply_turns, fiber_turns, ply_offset, ellipse_long, tolerance, largest)));
+    give(float(subdivisions(b, ply_turns, fiber_turns, ply_offset, ellipse_long, tolerance, per_turn, largest)));
 }

@@ -6,8 +6,8 @@
 void run() {
     vec3 b[4];
     take_piece(b);
-    vec3 eye = take_vec3();
+    vec4 depth = take_vec4();
     float margin = take_float();
     float nearest = take_float();
-    give(nearest_distance(b, eye, margin, nearest));
+    give(nearest_depth(b, depth, margin, nearest));
 }

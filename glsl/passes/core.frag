@@ -1,0 +1,86 @@
+#version 460
+// Shades a core fiber as the fibers it stands for, by its texture.
+#extension GL_GOOGLE_include_directive : require
+#include "surface.glsl"
+#include "../lib/coverage.glsl"
+#include "../lib/frame.glsl"
+
+layout(location = 0) centroid in vec3 fragment_position;
+layout(location = 1) centroid in vec3 fragment_tangent;
+layout(location = 2) centroid in vec4 fragment_side;     // a: across the core, as a share of the ellipse
+layout(location = 3) centroid in vec4 fragment_section;  // width, depth, shear (mm), turns
+layout(location = 4) centroid in vec4 fragment_rates;    // of the first three and of the turn (radians), per mm
+layout(location = 5) centroid in vec3 fragment_place;    // from_yarn along side and toward, level
+layout(location = 6) flat in uvec3 fragment_core;        // ply, what a debug view shows, piece of yarn
+
+layout(location = 0) out vec4 radiance;
+
+// Level and mip are each one of the two nearest, by chance in proportion: on average that is what blending
+// them gives, for a quarter of the texture reads.
+Surface read_core(vec2 uv, float lod, uvec2 words) {
+    float level = clamp(floor(fragment_place.z + uniform_from_word(words.x)), 0.0, float(CORE_LEVELS - 1u));
+    float mip = max(floor(lod + uniform_from_word(words.y)), 0.0);
+    vec3 place = vec3(uv, float(fragment_core.x * CORE_LEVELS) + level);
+    vec4 spread = SPECULAR || DISTANCE_OCCLUSION ? textureLod(core_spread, place, mip) : vec4(0.0);
+    return surface_of(textureLod(core_normals, place, mip), textureLod(core_shape, place, mip), spread);
+}
+
+// Texels of the finer direction that a pixel spans.
+float texels_of(float pixel_mm) {
+    float across = pixel_mm * float(yarn.core_rows) / (2.0 * yarn.core_extent * fragment_section.x);
+    float along = pixel_mm * abs(fragment_rates.w) / TWO_PI * float(yarn.core_columns);
+    return max(across, along);
+}
+
+// Random words of one cell of the texture, as large as a pixel: stable where the cloth moves.
+uvec4 cell_words(vec2 uv, float texels) {
+    float cell = exp2(ceil(log2(max(texels, 1.0))));
+    ivec2 place = ivec2(floor(uv * vec2(yarn.core_columns, yarn.core_rows) / cell));
+    return hash_words(uvec4(uvec2(place), fragment_core.z * 8u + fragment_core.x, frame.index));
+}
+
+// Distance from the yarn's centre, as a share of outer_radius, of what lies at `v` across and `height` above.
+float yarn_distance(float v, float height) {
+    vec2 offset = vec2(fragment_section.x * v, fragment_section.y * height + fragment_section.z * v);
+    return length(offset + yarn.ply_offset * fragment_place.xy) / yarn.outer_radius;
+}
+
+void main() {
+    float pixel_mm = frame.pixel_tangent / gl_FragCoord.w;
+    float texels = texels_of(pixel_mm);
+    float v = fragment_side.w;
+    vec2 uv = vec2(fract(fragment_section.w), 0.5 + 0.5 * v / yarn.core_extent);
+    uvec4 words = cell_words(uv, texels);
+    Surface surface = read_core(uv, log2(max(texels * frame.shading_spacing_px, 1e-3)), words.yz);
+    uint mask = coverage_mask(sharpened_coverage(surface.coverage, texels), SAMPLES, words.x);
+    if (mask == 0u) {
+        discard;
+    }
+    gl_SampleMask[0] = int(mask);
+
+    // From the texture's turn to the ply in space.
+    vec4 rates = fragment_rates;
+    vec2 slope = rates.w * vec2(fragment_section.x * surface.slope.x,
+                                fragment_section.y * surface.slope.y + fragment_section.z * surface.slope.x);
+    slope += vec2(rates.x * v, rates.y * surface.height + rates.z * v);
+    vec2 scale = rates.w * fragment_section.xy;
+    float shrink = 1.0 / (1.0 + dot(slope, slope));
+
+    vec3 axis = direction_or(fragment_tangent, vec3(1.0, 0.0, 0.0));
+    vec3 side = normal_perpendicular_to(axis, fragment_side.xyz);
+    vec3 toward = cross(axis, side);
+    Strand strand;
+    strand.position = fragment_position;
+    strand.tangent = direction_or(axis + slope.x * side + slope.y * toward, axis);
+    strand.toward = normal_perpendicular_to(strand.tangent, toward);
+    strand.side = cross(strand.toward, strand.tangent);
+    strand.spread = shrink * vec3(scale.x * scale.x, scale.y * scale.y, scale.x * scale.y) * surface.spread;
+    strand.normals = surface.normals;
+    // Heights are skewed: none lies above the ply's round.
+    float top = sqrt(max(0.0, yarn.core_extent * yarn.core_extent - v * v));
+    float rough = clamp(top - surface.height, 0.0, surface.rough);
+    strand.distance = vec2(yarn_distance(v, surface.height - rough), yarn_distance(v, surface.height + rough));
+    strand.ply = fragment_core.x;
+    strand.shown = fragment_core.y;
+    radiance = strand_color(strand);
+}

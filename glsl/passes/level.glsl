@@ -1,0 +1,56 @@
+// What the control and evaluation stages of all fiber passes ask of a piece of yarn.
+#ifndef WORSTED_PASS_LEVEL
+#define WORSTED_PASS_LEVEL
+
+#include "../yarn/detail.glsl"
+#include "../yarn/level.glsl"
+
+// A point's depth along the view axis is depth_axis().xyz . p + depth_axis().w.
+vec4 depth_axis() {
+    return vec4(frame.clip_from_world[0].w, frame.clip_from_world[1].w, frame.clip_from_world[2].w,
+                frame.clip_from_world[3].w);
+}
+
+// What a yarn is drawn with where its pixels are `pixel_mm` wide. Without level of detail: all that the
+// core does not stand for anyway.
+Detail detail_at(float pixel_mm) {
+    if (!LEVEL_OF_DETAIL) {
+        return Detail(yarn.core_ranks, 2.0, 0.0);
+    }
+    return detail_of(pixel_mm, frame.lod_threshold_px, frame.thin_fiber_px, yarn);
+}
+
+// Least pieces a turn of something drawn at full detail, and where only cores are drawn.
+const float PIECES_PER_TURN_FULL = 6.0;
+const float PIECES_PER_TURN_LEAST = 3.0;
+// Factor of the tolerance for fibers where only cores are drawn: thinner than a sample, their place matters less.
+const float TOLERANCE_GROWTH = 3.0;
+
+float simplified(Detail detail) {
+    return detail.level / float(CORE_LEVELS - 1u);
+}
+
+float pieces_per_turn(Detail detail) {
+    return mix(PIECES_PER_TURN_FULL, PIECES_PER_TURN_LEAST, simplified(detail));
+}
+
+float pixel_mm_at(vec3 position) {
+    return frame.pixel_tangent * max(dot(depth_axis().xyz, position) + depth_axis().w, frame.near_mm);
+}
+
+void count_patch(bool culled) {
+    if (culled) {
+        atomicAdd(statistics.patches_culled, 1);
+    } else {
+        atomicAdd(statistics.patches_drawn, 1);
+    }
+}
+
+void count_segments(uint fiber_segments) {
+    uint before = atomicAdd(statistics.fiber_segments_low, fiber_segments);
+    if (before + fiber_segments < before) {
+        atomicAdd(statistics.fiber_segments_high, 1);
+    }
+}
+
+#endif

@@ -1,0 +1,115 @@
+// What is seen of fibers at one place of the core texture, and how it is shaded: one path for core fibers
+// and single ones, which read a layer of their own (Wu & Yuksel 2019, Sec. 5).
+#ifndef WORSTED_SURFACE
+#define WORSTED_SURFACE
+
+#include "bindings.glsl"
+#include "../bsdf/simple.glsl"
+#include "../shading/occlusion.glsl"
+#include "../shared/debug_views.glsl"
+
+// Means over what is covered.
+struct Surface {
+    float coverage;
+    float height;  // above the ply's centre, as a share of the section's depth
+    float rough;   // deviation of the height
+    vec2 slope;    // along side and toward, per radian of the texture's turn, as shares of width and depth
+    vec3 spread;   // variances of the slopes, and their covariance
+    vec4 normals;  // means of sin phi, cos phi, sin 2 phi, cos 2 phi
+};
+
+// The stored means are over all of a texel, covered or not, so that filtering them is right.
+Surface surface_of(vec4 normals, vec4 shape, vec4 spread) {
+    Surface surface;
+    surface.coverage = shape.x;
+    float scale = 1.0 / max(shape.x, 1e-4);
+    surface.height = shape.y * scale;
+    surface.slope = shape.zw * scale;
+    vec2 s = surface.slope;
+    surface.spread = spread.xyz * scale - vec3(s.x * s.x, s.y * s.y, s.x * s.y);
+    surface.spread.xy = max(surface.spread.xy, 0.0);
+    surface.rough = sqrt(max(0.0, spread.w * scale - surface.height * surface.height));
+    surface.normals = normals * scale;
+    return surface;
+}
+
+// One fiber at `across` in [-1, 1] of its strip. Never filtered, however thin: of a strip that others hide in
+// part only the visible part counts, which the sample's own place stands for.
+Surface fiber_surface(float across) {
+    if (!CORE_FIBERS) {
+        float z = sqrt(max(0.0, 1.0 - across * across));
+        return Surface(1.0, 0.0, 0.0, vec2(0.0), vec3(0.0), vec4(across, z, 2.0 * across * z, z * z - across * across));
+    }
+    vec3 place = vec3(0.5, 0.5 + 0.5 * across, float(yarn.ply_count * CORE_LEVELS));
+    return Surface(1.0, 0.0, 0.0, vec2(0.0), vec3(0.0), textureLod(core_normals, place, 0.0));
+}
+
+struct Strand {
+    vec3 position;
+    vec3 tangent;
+    vec3 side;       // unit, perpendicular to the tangent
+    vec3 toward;     // unit, perpendicular to both, toward the viewer
+    vec2 distance;   // from the yarn's centre, as a share of outer_radius: a deviation nearer and farther than the mean
+    vec3 spread;     // of the tangent
+    vec4 normals;
+    uint ply;
+    uint shown;      // what a debug view shows
+};
+
+// Wu & Yuksel 2019, Fig. 4: migration dark, loops green, hairs red; core fibers blue.
+const uint KIND_CORE = 3;
+const vec3 KIND_COLORS[4] = vec3[4](vec3(0.08), vec3(0.1, 0.75, 0.15), vec3(0.85, 0.08, 0.05), vec3(0.1, 0.2, 0.6));
+
+vec3 shade(Strand strand, vec3 to_eye, float visibility) {
+    vec3 sum = vec3(0.0);
+    if (LIGHT) {
+        vec3 to_light = frame.light_direction_world.xyz;
+        vec3 scattering = simple_diffuse(yarn.diffuse.rgb, strand.normals, strand.side, strand.toward, to_light);
+        if (SPECULAR) {
+            float variance = half_angle_variance(strand.spread, strand.side, strand.toward, to_light, to_eye);
+            scattering += yarn.specular.rgb
+                        * simple_specular_cos(strand.tangent, to_light, to_eye, yarn.specular.a, variance);
+        }
+        sum += scattering * frame.light_irradiance.rgb;
+    }
+    if (AMBIENT) {
+        // Constant light from everywhere: the diffuse lobe's integral is its strength.
+        sum += yarn.diffuse.rgb * frame.ambient_radiance.rgb * visibility;
+    }
+    return sum;
+}
+
+vec3 ply_color(uint ply) {
+    return 0.5 + 0.45 * cos(TWO_PI * (float(ply) / float(yarn.ply_count) + vec3(0.0, 1.0, 2.0) / 3.0));
+}
+
+// Lets a flat colour show a round fiber.
+float rounding(vec3 normal, vec3 to_eye) {
+    return 0.35 + 0.65 * max(0.0, dot(normal, to_eye));
+}
+
+vec4 strand_color(Strand strand) {
+    vec3 to_eye = direction_or(frame.eye_world.xyz - strand.position, vec3(0.0, 0.0, 1.0));
+    // What is seen lies at many depths: two stand for them.
+    float visibility = DISTANCE_OCCLUSION ? 0.5 * (distance_occlusion(yarn.occlusion, strand.distance.x)
+                                                   + distance_occlusion(yarn.occlusion, strand.distance.y))
+                                          : 1.0;
+    vec3 normal = strand.normals.x * strand.side + strand.normals.y * strand.toward;
+    vec3 color;
+    switch (DEBUG_VIEW) {
+        case VIEW_NORMAL: color = 0.5 + 0.5 * normal; break;
+        case VIEW_TANGENT: color = 0.5 + 0.5 * strand.tangent; break;
+        case VIEW_OCCLUSION: color = vec3(visibility); break;
+        case VIEW_PLY: color = ply_color(strand.ply); break;
+        case VIEW_KIND: color = KIND_COLORS[min(strand.shown, 3u)] * rounding(normal, to_eye); break;
+        case VIEW_FRAME:
+        case VIEW_LENGTH:
+        case VIEW_LEVEL_OF_DETAIL:
+            color = unpackUnorm4x8(strand.shown).rgb * rounding(normal, to_eye);
+            break;
+        default: color = shade(strand, to_eye, visibility); break;
+    }
+    return vec4(color, 1.0);
+}
+
+#endif

@@ -1,0 +1,11 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../kernel.glsl"
+#include "../../yarn/detail.glsl"
+
+void run() {
+    float fiber_px = take_float();
+    float ply_px = take_float();
+    float threshold = take_float();
+    give(lod_factor(fiber_px, ply_px, threshold));
+}

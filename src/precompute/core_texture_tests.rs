@@ -1,0 +1,111 @@
+use super::*;
+use crate::yarn::presets;
+use crate::yarn::table::fiber_table;
+
+const ROWS: u32 = 32;
+
+fn baked(preset: &str) -> (YarnParams, CoreTexture) {
+    let yarn = presets::yarn(preset).unwrap();
+    let texture = bake_core(&yarn, &fiber_table(&yarn, 3), ROWS, 0.02);
+    (yarn, texture)
+}
+
+fn layer(texture: &CoreTexture, index: u32) -> &[Moments] {
+    let mip = &texture.mips[0];
+    let size = (mip.columns * mip.rows) as usize;
+    &mip.texels[index as usize * size..][..size]
+}
+
+#[test]
+fn every_preset_bakes_to_finite_moments_that_normals_can_have() {
+    for preset in presets::yarn_names() {
+        let (yarn, texture) = baked(preset);
+        assert_eq!(texture.layers, yarn.ply_count * CORE_LEVELS + 1);
+        assert!(texture.ranks <= yarn.fibers_per_ply && texture.ranks > 0, "{preset}: {}", texture.ranks);
+        assert!(texture.thickness.windows(2).all(|w| w[0] <= w[1]), "{preset}: {:?}", texture.thickness);
+        assert!(texture.thickness[7] <= texture.extent + 1e-12);
+        assert!((0.1..1.0).contains(&texture.height_share), "{preset}: height {}", texture.height_share);
+        for mip in &texture.mips {
+            for m in &mip.texels {
+                let [coverage, height, s, d] = m.shape;
+                assert!((0.0..=1.0 + 1e-12).contains(&coverage), "{preset}: covers {coverage}");
+                assert!([height, s, d].iter().all(|v| v.abs() <= 1.5 * coverage), "{preset}: {m:?}");
+                assert!(m.normals[0].hypot(m.normals[1]) <= coverage + 1e-12, "{preset}: {m:?}");
+                assert!(m.spread[0] * coverage >= s * s - 1e-9, "{preset}: no variance below 0: {m:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn levels_stand_for_ever_more_fibers() {
+    let (yarn, texture) = baked("worsted_3ply");
+    let covered = |level: u32| layer(&texture, level).iter().map(|m| m.shape[0]).sum::<f64>();
+    for level in 1..CORE_LEVELS {
+        assert!(covered(level) >= covered(level - 1), "level {level} covers less than the one before");
+    }
+    // The whole ply hides nearly all that lies behind it, out to near its edge.
+    let mip = &texture.mips[0];
+    let middle = |m: &Moments| m.shape[0];
+    let whole = layer(&texture, CORE_LEVELS - 1);
+    let inner: Vec<f64> = (mip.rows / 4..3 * mip.rows / 4)
+        .flat_map(|row| whole[(row * mip.columns) as usize..][..mip.columns as usize].iter().map(middle))
+        .collect();
+    let mean = inner.iter().sum::<f64>() / inner.len() as f64;
+    assert!(mean > 0.95, "covers {mean}");
+    assert!(texture.ranks < yarn.fibers_per_ply, "nothing of a dense ply is hidden");
+}
+
+#[test]
+fn the_turn_tiles() {
+    let (_, texture) = baked("cotton1");
+    let whole = layer(&texture, CORE_LEVELS - 1);
+    let columns = texture.mips[0].columns as usize;
+    // Across the tile's ends neighbouring columns differ no more than anywhere else.
+    let step = |a: usize, b: usize| -> f64 {
+        (0..ROWS as usize)
+            .map(|row| (whole[row * columns + a].shape[1] - whole[row * columns + b].shape[1]).abs())
+            .sum()
+    };
+    let inside = (1..columns).map(|c| step(c - 1, c)).fold(0.0, f64::max);
+    assert!(step(columns - 1, 0) <= inside, "{} at the seam, {inside} inside", step(columns - 1, 0));
+}
+
+#[test]
+fn mips_are_averages_and_the_last_is_the_whole_layer() {
+    let (_, texture) = baked("silk1");
+    let last = texture.mips.last().unwrap();
+    assert_eq!((last.columns, last.rows, last.texels.len() as u32), (1, 1, texture.layers));
+    for index in 0..texture.layers {
+        let all = layer(&texture, index);
+        let mean = all.iter().copied().fold(Moments::default(), Add::add) * (1.0 / all.len() as f64);
+        let found = last.texels[index as usize];
+        for (a, b) in mean.shape.iter().zip(found.shape).chain(mean.normals.iter().zip(found.normals)) {
+            assert!((a - b).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn the_single_fiber_shows_its_round_self() {
+    let (_, texture) = baked("cotton1");
+    let texels = layer(&texture, texture.layers - 1);
+    for row in 0..ROWS {
+        let m = texels[(row * texture.mips[0].columns) as usize];
+        let across = (f64::from(row) + 0.5) / f64::from(ROWS) * 2.0 - 1.0;
+        assert!((m.normals[0] - across).abs() < 1e-9 && m.shape == [1.0, 0.0, 0.0, 0.0]);
+    }
+    // Seen from afar: the means over a disc's projection, 0, pi/4, 0 and 1/3.
+    let all = texture.mips.last().unwrap().texels[texture.layers as usize - 1].normals;
+    let expected = [0.0, std::f64::consts::FRAC_PI_4, 0.0, 1.0 / 3.0];
+    assert!(all.iter().zip(expected).all(|(a, b)| (a - b).abs() < 2e-3), "{all:?}");
+}
+
+#[test]
+fn a_share_of_nothing_hides_only_what_is_never_seen_and_a_share_of_all_draws_no_fiber() {
+    let yarn = presets::yarn("cotton1").unwrap();
+    let fibers = fiber_table(&yarn, 3);
+    let ranks = |share: f64| bake_core(&yarn, &fibers, ROWS, share).ranks;
+    assert!(ranks(0.0) > ranks(0.05) && ranks(0.05) > ranks(0.3));
+    assert_eq!(ranks(1.1), 0);
+}

@@ -1,0 +1,63 @@
+//! Measures what level of detail costs and saves, and says whether its limits hold: `measure
+//! lod-error|lod-cost|dolly|turntable`. Exit codes are those of `worsted`; 1 is a limit that does not hold.
+
+mod dolly;
+mod lod_cost;
+mod lod_error;
+#[path = "../figures/looks.rs"]
+mod looks;
+mod pictures;
+mod report;
+mod stage;
+mod turntable;
+
+use clap::{Parser, Subcommand};
+use stage::Stage;
+use std::process::ExitCode;
+use worsted::error::Error;
+
+/// What can be typed.
+#[derive(Debug, Parser)]
+#[command(name = "measure", about = "Error and cost of level of detail and culling")]
+struct Args {
+    /// Device by name, by index, or `software` for a CPU device.
+    #[arg(long, global = true, default_value = "auto", value_name = "NAME|INDEX|software")]
+    device: String,
+    /// What to measure.
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// The measurements.
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Error of the default settings against every fiber.
+    LodError(lod_error::Options),
+    /// CPU and wall time of a picture with level of detail and without.
+    LodCost(lod_cost::Options),
+    /// Changes from frame to frame, and of the mean colour, as the camera goes from 5 cm to 5 m.
+    Dolly(dolly::Options),
+    /// Pictures with culling against pictures without, as pieces of yarn come and go.
+    Turntable(turntable::Options),
+}
+
+fn main() -> ExitCode {
+    match run(&Args::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("measure: {error}");
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+fn run(args: &Args) -> Result<(), Error> {
+    let stage = Stage::new(&args.device)?;
+    match &args.command {
+        Command::LodError(options) => lod_error::run(&stage, options)?,
+        Command::LodCost(options) => lod_cost::run(&stage, options)?,
+        Command::Dolly(options) => dolly::run(&stage, options)?,
+        Command::Turntable(options) => turntable::run(&stage, options)?,
+    }
+    stage.close()
+}
