@@ -22,12 +22,19 @@ Detail detail_at(float pixel_mm) {
 
 // Least pieces a turn of something drawn at full detail, and where only cores are drawn.
 const float PIECES_PER_TURN_FULL = 6.0;
-const float PIECES_PER_TURN_LEAST = 3.0;
-// Factor of the tolerance for fibers where only cores are drawn: thinner than a sample, their place matters less.
-const float TOLERANCE_GROWTH = 3.0;
+const float PIECES_PER_TURN_LEAST = 2.0;
+// Factors of the tolerance where only cores are drawn: fibers are thinner than a sample there, and cores
+// overlap, so that their place matters less.
+const float FIBER_TOLERANCE_GROWTH = 4.0;
+const float CORE_TOLERANCE_GROWTH = 3.0;
 
 float simplified(Detail detail) {
     return detail.level / float(CORE_LEVELS - 1u);
+}
+
+// Allowed departure of chords in mm, growing by up to `growth` with simplification.
+float tolerance_mm(float pixel_mm, Detail detail, float growth) {
+    return frame.tolerance_px * pixel_mm * mix(1.0, growth, simplified(detail));
 }
 
 float pieces_per_turn(Detail detail) {

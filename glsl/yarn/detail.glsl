@@ -12,7 +12,7 @@ const float RANK_FADE = 0.25;
 // Share of the part of fibers kept over which one fades in.
 const float THINNING_FADE = 0.2;
 // Share of the ply's radius from which on loops and hairs stand out of it.
-const float FLYING_SHARE = 0.9;
+const float FLYING_SHARE = 1.0;
 // Periods in a piece of yarn beyond which it is taken to hold a flyaway without looking.
 const int MOST_PERIODS_SEARCHED = 8;
 

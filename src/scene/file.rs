@@ -185,7 +185,7 @@ pub struct QualityTable {
     pub level_of_detail: bool,
     /// Width of a fiber above which nothing is simplified, and of a ply below which only its core fiber is drawn
     /// (Wu & Yuksel 2019, Eq. 4), in distances between a pixel's samples, 0.01 to 10000: what samples cannot
-    /// tell apart need not be drawn. 2 is one pixel at 4 samples.
+    /// tell apart need not be drawn. 1.5 is three quarters of a pixel at 4 samples.
     pub lod_threshold_samples: f64,
     /// Narrowest that level of detail draws a fiber, in distances between a pixel's samples, 0.01 to 10: of
     /// thinner ones some are dropped and the rest drawn this wide, so that they cover as much.
@@ -210,7 +210,7 @@ impl Default for QualityTable {
         Self {
             culling: true,
             level_of_detail: true,
-            lod_threshold_samples: 2.0,
+            lod_threshold_samples: 1.5,
             thin_fiber_samples: 1.0,
             core_visible_share: 0.02,
             core_texture_rows: 64,

@@ -17,7 +17,7 @@ const RANK_FADE: f64 = 0.25;
 /// Share of the part of fibers kept over which one fades in.
 const THINNING_FADE: f64 = 0.2;
 /// Share of the ply's radius from which on loops and hairs stand out of it.
-const FLYING_SHARE: f64 = 0.9;
+const FLYING_SHARE: f64 = 1.0;
 /// Periods in a piece of yarn beyond which it is taken to hold a flyaway without looking.
 const MOST_PERIODS_SEARCHED: i32 = 8;
 

@@ -220,8 +220,11 @@ fn mean_channel(picture: &LinearImage, channel: usize) -> f64 {
 
 #[test]
 fn the_number_of_samples_does_not_change_what_a_thin_fiber_shows() {
-    // Fibers of a quarter of a pixel: most lie between the centres of the pixels.
-    let sampled = |samples, sets: &[&str]| draw(scene(&swatch(), sets), SMALL, samples).linear;
+    // Fibers of a quarter of a pixel: most lie between the centres of the pixels. Every one is drawn, as level
+    // of detail goes by the number of samples.
+    let every = ["debug.fibers=\"every\""];
+    let sampled =
+        |samples, sets: &[&str]| draw(scene(&swatch(), &[&every, sets].concat()), SMALL, samples).linear;
     let mut wrong = Vec::new();
     for (what, sets, channel) in [
         ("normal toward the eye", &["debug.view=normal"][..], 2),
