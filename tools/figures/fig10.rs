@@ -11,7 +11,7 @@ use toml::{Table, toml};
 use worsted::error::Error;
 use worsted::math::curve::Curve;
 use worsted::scene::Scene;
-use worsted::scene::file::{DisplayTable, OcclusionMode, OcclusionTable, SceneFile};
+use worsted::scene::file::{DebugTable, DisplayTable, FibersShown, OcclusionMode, OcclusionTable, SceneFile};
 use worsted::vulkan::Device;
 use worsted::yarn::zhao::{FiberCurve, zhao_fibers};
 
@@ -51,6 +51,8 @@ fn file(name: &str, width_mm: f64) -> SceneFile {
         fiber: fiber(name),
         camera: camera(SIZE, width_mm, [0.0; 3]),
         display: DisplayTable { background: [0.02, 0.021, 0.024], ..Default::default() },
+        // What is compared is fibers: no core may stand for any.
+        debug: DebugTable { fibers: FibersShown::Every, ..Default::default() },
         // The reference's fibers know no yarn to be occluded by: so neither do ours.
         occlusion: OcclusionTable { mode: OcclusionMode::None },
         ..Default::default()

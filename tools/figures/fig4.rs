@@ -7,7 +7,7 @@ use glam::DVec3;
 use std::sync::Arc;
 use toml::{Table, toml};
 use worsted::error::Error;
-use worsted::scene::file::{DebugTable, DebugView, SceneFile};
+use worsted::scene::file::{DebugTable, DebugView, FibersShown, SceneFile};
 use worsted::vulkan::Device;
 
 const SIZE: [u32; 2] = [1400, 260];
@@ -48,7 +48,7 @@ pub fn draw(device: &Arc<Device>) -> Result<(), Error> {
         seed: 5,
         yarn: few_fibers(),
         camera: camera(SIZE, width_mm, [0.0; 3]),
-        debug: DebugTable { view: DebugView::Kind, ..Default::default() },
+        debug: DebugTable { view: DebugView::Kind, fibers: FibersShown::Every },
         ..Default::default()
     };
     let line = strand(0.7 * width_mm, 0.25, |s| DVec3::X * s);
