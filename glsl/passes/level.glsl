@@ -26,7 +26,7 @@ const float PIECES_PER_TURN_LEAST = 2.0;
 // Factors of the tolerance where only cores are drawn: fibers are thinner than a sample there, and cores
 // overlap, so that their place matters less.
 const float FIBER_TOLERANCE_GROWTH = 4.0;
-const float CORE_TOLERANCE_GROWTH = 3.0;
+const float CORE_TOLERANCE_GROWTH = 1.0;
 
 float simplified(Detail detail) {
     return detail.level / float(CORE_LEVELS - 1u);
