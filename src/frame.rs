@@ -141,7 +141,7 @@ impl Renderer {
         let (scene, view, is_cpu) = (&self.scene, (&camera, &self.request), self.device.is_cpu());
         self.fibers
             .plan(|fabric, strands| plan::draw_plan(scene, &scene.fabrics[fabric], view, strands, is_cpu));
-        let frames = self.request.sampling.jitters().len();
+        let frames = self.request.sampling.frames();
         let mut taken = Duration::ZERO;
         let mut passes = HashMap::new();
         if self.request.statistics {

@@ -10,10 +10,11 @@ vec3 strip_side(vec3 tangent, vec3 to_eye) {
     return direction_or(cross(tangent, to_eye), any_perpendicular(to_eye));
 }
 
-// Outward normal of the round fiber at `across` in [-1, 1] of its strip.
-vec3 strip_normal(vec3 tangent, vec3 side, float across) {
-    vec3 facing = cross(side, tangent);
-    return across * side + sqrt(max(0.0, 1.0 - across * across)) * facing;
+// Outward normal of the round fiber at `across` in [-1, 1] of its strip, by its azimuth phi from the viewer (0)
+// to the strip's side (pi/2): sin phi, cos phi, sin 2 phi, cos 2 phi.
+vec4 strip_normals(float across) {
+    float z = sqrt(max(0.0, 1.0 - across * across));
+    return vec4(across, z, 2.0 * across * z, z * z - across * across);
 }
 
 #endif

@@ -45,8 +45,8 @@ void emit(int end, float across, vec4 seen, vec4 rates) {
 }
 
 void main() {
-    // Which end of the line comes first along the yarn is the driver's choice; rates do not depend on it,
-    // but the lengths along the tangent do.
+    // Which end of the line comes first along the yarn is the driver's choice: the length has the sign of the
+    // differences, so that rates do not depend on it.
     float length_mm = dot(position_world[1] - position_world[0], tangent_world[0] + tangent_world[1]) * 0.5;
     float per_mm = abs(length_mm) > 1e-9 ? 1.0 / length_mm : 0.0;
     vec4 first = section[0];

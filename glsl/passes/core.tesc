@@ -24,9 +24,8 @@ void main() {
 
     // Besides the ply's own turn, the texture follows the turn of its ellipse as seen, which is uneven.
     float uneven_mm = yarn.ply_radius * abs(yarn.ellipse_long / yarn.ellipse_short - 1.0);
-    Detail detail = detail_at(pixel_mm);
     uint pieces = subdivisions(b, segment.ply_turns_delta, 0.0, yarn.ply_offset, uneven_mm,
-                               tolerance_mm(pixel_mm, detail, CORE_TOLERANCE_GROWTH), pieces_per_turn(detail),
+                               frame.tolerance_px * pixel_mm, pieces_per_turn(detail_at(pixel_mm)),
                                yarn.max_subdivisions);
     patch_segment = segment_index[0];
     patch_pieces = pieces;

@@ -20,9 +20,6 @@ layout(location = 4) out vec4 place;         // from_yarn along side and toward,
 layout(location = 5) out uvec3 core;         // ply, what a debug view shows, piece of yarn
 layout(location = 6) out vec3 toward_world;
 
-// The core in views by kind.
-const uint KIND_CORE = 3;
-
 void main() {
     uint ply = uint(gl_TessCoord.y * float(yarn.ply_count) + 0.5);
     float t = floor(gl_TessCoord.x * float(patch_pieces) + 0.5) / float(patch_pieces);

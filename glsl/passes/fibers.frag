@@ -13,7 +13,6 @@ layout(location = 4) flat in uvec2 fragment_fiber;  // index, what a debug view 
 layout(location = 0) out vec4 radiance;
 
 void main() {
-    Surface surface = fiber_surface(clamp(fragment_side.w, -1.0, 1.0));
     Strand strand;
     strand.position = fragment_position;
     strand.tangent = direction_or(fragment_tangent, vec3(1.0, 0.0, 0.0));
@@ -21,7 +20,7 @@ void main() {
     strand.toward = cross(strand.side, strand.tangent);
     strand.distance = vec2(fragment_distance);
     strand.spread = vec3(0.0);
-    strand.normals = surface.normals;
+    strand.normals = fiber_normals(clamp(fragment_side.w, -1.0, 1.0));
     strand.ply = DEBUG_VIEW == VIEW_PLY ? fibers[fragment_fiber.x].ply : 0u;
     strand.shown = fragment_fiber.y;
     radiance = strand_color(strand);

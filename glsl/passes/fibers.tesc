@@ -20,7 +20,7 @@ uvec2 drawn_slots(Segment segment, uint slot_count, Detail detail) {
     uvec2 mask = uvec2(0u);
     for (uint i = 0u; i < slot_count; ++i) {
         uint slot = first_fiber[0] + i;
-        if (thinning_weight((float(slot) + 0.5) / float(yarn.fiber_count), detail.share) <= 0.0) {
+        if (slot_weight(slot, detail) <= 0.0) {
             break;  // nor any later one
         }
         uint index = fiber_of_slot(slot, yarn);
@@ -43,9 +43,9 @@ uint pieces_of(Segment segment, vec3 b[4], float pixel_mm, Detail detail) {
         float loop = yarn.loop_probability > 0.0 ? yarn.loop_radius_mean : 0.0;
         fiber_reach *= max(1.0, max(hair, loop));
     }
-    float tolerance = tolerance_mm(pixel_mm, detail, FIBER_TOLERANCE_GROWTH);
+    float tolerance_mm = frame.tolerance_px * pixel_mm * mix(1.0, FIBER_TOLERANCE_GROWTH, simplified(detail));
     uint pieces = subdivisions(b, segment.ply_turns_delta, segment.fiber_turns_delta, yarn.ply_offset,
-                               fiber_reach, tolerance, pieces_per_turn(detail), yarn.max_subdivisions);
+                               fiber_reach, tolerance_mm, pieces_per_turn(detail), yarn.max_subdivisions);
     return FLYAWAYS ? period_pieces(pieces, period_rate(segment, yarn), yarn.max_subdivisions) : pieces;
 }
 

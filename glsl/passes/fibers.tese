@@ -25,8 +25,7 @@ layout(location = 4) out ivec4 joining;        // entry, exit, what a debug view
 // loop or a hair, for which no core stands.
 float drawn_width(uint slot, vec3 position, bool flies) {
     Detail detail = detail_at(pixel_mm_at(position));
-    float thinning = thinning_weight((float(slot) + 0.5) / float(yarn.fiber_count), detail.share);
-    float width = width_factor(thinning, detail.share);
+    float width = width_factor(slot_weight(slot, detail), detail.share);
     return flies ? width : width * rank_weight(fiber_index / yarn.ply_count, detail.kept);
 }
 

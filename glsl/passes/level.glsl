@@ -23,22 +23,21 @@ Detail detail_at(float pixel_mm) {
 // Least pieces a turn of something drawn at full detail, and where only cores are drawn.
 const float PIECES_PER_TURN_FULL = 6.0;
 const float PIECES_PER_TURN_LEAST = 2.0;
-// Factors of the tolerance where only cores are drawn: fibers are thinner than a sample there, and cores
-// overlap, so that their place matters less.
+// Factor of the tolerance for fibers where only cores are drawn: thinner than a sample there, their place
+// matters less. Not so for cores, whose colour far away it would change.
 const float FIBER_TOLERANCE_GROWTH = 4.0;
-const float CORE_TOLERANCE_GROWTH = 1.0;
 
 float simplified(Detail detail) {
     return detail.level / float(CORE_LEVELS - 1u);
 }
 
-// Allowed departure of chords in mm, growing by up to `growth` with simplification.
-float tolerance_mm(float pixel_mm, Detail detail, float growth) {
-    return frame.tolerance_px * pixel_mm * mix(1.0, growth, simplified(detail));
-}
-
 float pieces_per_turn(Detail detail) {
     return mix(PIECES_PER_TURN_FULL, PIECES_PER_TURN_LEAST, simplified(detail));
+}
+
+// Share of its width with which the fiber in a slot is drawn, whatever its rank.
+float slot_weight(uint slot, Detail detail) {
+    return thinning_weight((float(slot) + 0.5) / float(yarn.fiber_count), detail.share);
 }
 
 float pixel_mm_at(vec3 position) {

@@ -5,8 +5,10 @@
 
 #include "bindings.glsl"
 #include "../bsdf/simple.glsl"
+#include "../lib/strip.glsl"
 #include "../shading/occlusion.glsl"
 #include "../shared/debug_views.glsl"
+#include "../yarn/period.glsl"
 
 // Means over what is covered.
 struct Surface {
@@ -33,15 +35,13 @@ Surface surface_of(vec4 normals, vec4 shape, vec4 spread) {
     return surface;
 }
 
-// One fiber at `across` in [-1, 1] of its strip. Never filtered, however thin: of a strip that others hide in
-// part only the visible part counts, which the sample's own place stands for.
-Surface fiber_surface(float across) {
+// The normal of one fiber at `across` in [-1, 1] of its strip, as means. Never filtered, however thin: of a strip
+// that others hide in part only the visible part counts, which the sample's own place stands for.
+vec4 fiber_normals(float across) {
     if (!CORE_FIBERS) {
-        float z = sqrt(max(0.0, 1.0 - across * across));
-        return Surface(1.0, 0.0, 0.0, vec2(0.0), vec3(0.0), vec4(across, z, 2.0 * across * z, z * z - across * across));
+        return strip_normals(across);
     }
-    vec3 place = vec3(0.5, 0.5 + 0.5 * across, float(yarn.ply_count * CORE_LEVELS));
-    return Surface(1.0, 0.0, 0.0, vec2(0.0), vec3(0.0), textureLod(core_normals, place, 0.0));
+    return textureLod(core_normals, vec3(0.5, 0.5 + 0.5 * across, float(yarn.ply_count * CORE_LEVELS)), 0.0);
 }
 
 struct Strand {
@@ -57,7 +57,6 @@ struct Strand {
 };
 
 // Wu & Yuksel 2019, Fig. 4: migration dark, loops green, hairs red; core fibers blue.
-const uint KIND_CORE = 3;
 const vec3 KIND_COLORS[4] = vec3[4](vec3(0.08), vec3(0.1, 0.75, 0.15), vec3(0.85, 0.08, 0.05), vec3(0.1, 0.2, 0.6));
 
 vec3 shade(Strand strand, vec3 to_eye, float visibility) {
@@ -101,7 +100,7 @@ vec4 strand_color(Strand strand) {
         case VIEW_TANGENT: color = 0.5 + 0.5 * strand.tangent; break;
         case VIEW_OCCLUSION: color = vec3(visibility); break;
         case VIEW_PLY: color = ply_color(strand.ply); break;
-        case VIEW_KIND: color = KIND_COLORS[min(strand.shown, 3u)] * rounding(normal, to_eye); break;
+        case VIEW_KIND: color = KIND_COLORS[min(strand.shown, KIND_CORE)] * rounding(normal, to_eye); break;
         case VIEW_FRAME:
         case VIEW_LENGTH:
         case VIEW_LEVEL_OF_DETAIL:

@@ -11,6 +11,8 @@
 const uint KIND_MIGRATION = 0;
 const uint KIND_LOOP = 1;
 const uint KIND_HAIR = 2;
+// In views by kind: a core fiber, which stands for many.
+const uint KIND_CORE = 3;
 
 // A hair takes at least a visible part of its period, and leaves some of it to the fiber it broke from.
 const float HAIR_SHARE_MIN = 0.02;

@@ -37,7 +37,17 @@ impl Sampling {
 
     /// Distance between the places of a pixel at which one thing is shaded, in pixels: once a frame.
     pub fn frame_spacing_px(self) -> f64 {
-        (self.jitters().len() as f64).sqrt().recip()
+        f64::from(self.side()).recip()
+    }
+
+    /// Frames of a picture.
+    pub fn frames(self) -> usize {
+        (self.side() * self.side()) as usize
+    }
+
+    /// Jittered frames along each axis.
+    fn side(self) -> u32 {
+        (self.0 / PER_FRAME).isqrt().max(1)
     }
 
     /// Samples of one frame.
@@ -48,7 +58,7 @@ impl Sampling {
     /// Offset in pixels of every frame. Standard 4x positions lie one to each quarter of the pixel; a
     /// regular grid of offsets half a pixel wide lets each of them sweep its own quarter of the area.
     pub fn jitters(self) -> Vec<DVec2> {
-        let side = (self.0 / PER_FRAME).isqrt().max(1);
+        let side = self.side();
         let at = |i: u32| 0.5 * ((f64::from(i) + 0.5) / f64::from(side) - 0.5);
         (0..side).flat_map(|y| (0..side).map(move |x| DVec2::new(at(x), at(y)))).collect()
     }
@@ -72,6 +82,7 @@ mod tests {
         for (samples, frames) in [(1, 1), (4, 1), (16, 4), (36, 9), (64, 16)] {
             let jitters = Sampling::new(samples).unwrap().jitters();
             assert_eq!(jitters.len(), frames);
+            assert_eq!(Sampling::new(samples).unwrap().frames(), frames);
             let mean: DVec2 = jitters.iter().sum::<DVec2>() / frames as f64;
             assert!(mean.length() < 1e-15, "the picture must not shift");
             assert!(jitters.iter().all(|j| j.abs().max_element() < 0.25));

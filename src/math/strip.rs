@@ -1,7 +1,7 @@
 //! The camera-facing strip that stands for a round fiber; twin of `glsl/lib/strip.glsl`.
 
 use super::frame::{any_perpendicular, direction_or};
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 /// Unit vector across the strip: perpendicular to the fiber and to the unit `to_eye`. Seen end on,
 /// the fiber has no side and any perpendicular of the line of sight is given.
@@ -9,10 +9,11 @@ pub fn strip_side(tangent: DVec3, to_eye: DVec3) -> DVec3 {
     direction_or(tangent.cross(to_eye), any_perpendicular(to_eye))
 }
 
-/// Outward normal of the round fiber at `across` in [-1, 1] of its strip.
-pub fn strip_normal(tangent: DVec3, side: DVec3, across: f64) -> DVec3 {
-    let facing = side.cross(tangent);
-    across * side + (1.0 - across * across).max(0.0).sqrt() * facing
+/// Outward normal of the round fiber at `across` in [-1, 1] of its strip, by its azimuth phi from the viewer (0)
+/// to the strip's side (pi/2): sin phi, cos phi, sin 2 phi, cos 2 phi.
+pub fn strip_normals(across: f64) -> DVec4 {
+    let z = (1.0 - across * across).max(0.0).sqrt();
+    DVec4::new(across, z, 2.0 * across * z, z * z - across * across)
 }
 
 #[cfg(test)]
@@ -25,9 +26,22 @@ mod tests {
         let to_eye = DVec3::Z;
         let side = strip_side(tangent, to_eye);
         assert!(side.dot(tangent).abs() < 1e-15 && side.dot(to_eye).abs() < 1e-15);
-        assert!((strip_normal(tangent, side, 0.0) - to_eye).length() < 1e-15);
-        assert!((strip_normal(tangent, side, 1.0) - side).length() < 1e-15);
-        assert!((strip_normal(tangent, side, -0.4).length() - 1.0).abs() < 1e-15);
+        let normal = |across: f64| {
+            let n = strip_normals(across);
+            n.x * side + n.y * side.cross(tangent)
+        };
+        assert!((normal(0.0) - to_eye).length() < 1e-15);
+        assert!((normal(1.0) - side).length() < 1e-15);
+        assert!((normal(-0.4).length() - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_second_pair_is_that_of_twice_the_angle() {
+        for across in [-1.0, -0.6, 0.0, 0.3, 1.0] {
+            let n = strip_normals(across);
+            let twice = 2.0 * n.x.atan2(n.y);
+            assert!((n.z - twice.sin()).abs() < 1e-15 && (n.w - twice.cos()).abs() < 1e-15);
+        }
     }
 
     #[test]

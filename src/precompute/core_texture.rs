@@ -2,6 +2,7 @@
 //! Fig. 5).
 
 use super::core_bake::{Grid, PlySurface};
+use crate::math::strip::strip_normals;
 use crate::yarn::detail::{CORE_LEVELS, ranks_at_level};
 use crate::yarn::params::YarnParams;
 use crate::yarn::table::Fiber;
@@ -26,12 +27,8 @@ pub struct Moments {
 impl Moments {
     /// A round fiber at `across` in [-1, 1] of its strip.
     pub fn round(across: f64) -> Self {
-        let z = (1.0 - across * across).max(0.0).sqrt();
-        Self {
-            normals: [across, z, 2.0 * across * z, z * z - across * across],
-            shape: [1.0, 0.0, 0.0, 0.0],
-            spread: [0.0; 4],
-        }
+        let normals = strip_normals(across).to_array();
+        Self { normals, shape: [1.0, 0.0, 0.0, 0.0], spread: [0.0; 4] }
     }
 }
 

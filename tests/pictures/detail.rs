@@ -3,7 +3,7 @@
 use worsted::io::picture::LinearImage;
 use worsted::metrics::error::compare;
 
-use crate::draw::{draw, draw_counted, scene, swatch};
+use crate::draw::{draw, draw_counted, mean_channel, scene, swatch};
 
 const SIZE: [u32; 2] = [96, 72];
 /// The samples at which pictures are compared.
@@ -24,15 +24,8 @@ fn flip(a: &LinearImage, b: &LinearImage) -> f64 {
     compare(a, b, 1.0).unwrap().error.covered.flip_mean
 }
 
-/// Radiance of the yarn: what hit it, not the background between.
-fn mean_color(picture: &LinearImage) -> [f64; 3] {
-    let sum = |c: usize| picture.pixels.iter().map(|pixel| f64::from(pixel[c])).sum::<f64>();
-    [0, 1, 2].map(|c| sum(c) / sum(3))
-}
-
 fn color_change(a: &LinearImage, b: &LinearImage) -> f64 {
-    let (a, b) = (mean_color(a), mean_color(b));
-    (0..3).map(|c| (a[c] / b[c] - 1.0).abs()).fold(0.0, f64::max)
+    (0..3).map(|c| (mean_channel(a, c) / mean_channel(b, c) - 1.0).abs()).fold(0.0, f64::max)
 }
 
 #[test]

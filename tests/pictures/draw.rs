@@ -97,6 +97,16 @@ pub fn mean_radiance(picture: &LinearImage) -> f64 {
     sum / (3 * covered.count()) as f64
 }
 
+/// Mean over the covered pixels of a channel's value in the yarn, without the background.
+pub fn mean_channel(picture: &LinearImage, channel: usize) -> f64 {
+    let (mut sum, mut alpha) = (0.0, 0.0);
+    for pixel in &picture.pixels {
+        sum += f64::from(pixel[channel]);
+        alpha += f64::from(pixel[3]);
+    }
+    sum / alpha
+}
+
 /// Mean row of the yarn, weighted by coverage: 0 is the top, 1 the bottom.
 pub fn center_row(picture: &LinearImage) -> f64 {
     let width = picture.width as usize;

@@ -8,7 +8,7 @@ use worsted::metrics::error::compare;
 use worsted::scene::Scene;
 
 use crate::draw::{
-    center_row, differing, draw, draw_counted, draw_sparse, hook, mean_radiance, scene, swatch,
+    center_row, differing, draw, draw_counted, draw_sparse, hook, mean_channel, mean_radiance, scene, swatch,
 };
 
 const SMALL: [u32; 2] = [96, 72];
@@ -206,16 +206,6 @@ fn the_files_up_axis_is_up() {
         let picture = draw(scene(&fallen, &camera), SMALL, 4).linear;
         assert!(differing(&picture, &upright) > 500, "the axis of {:?} does not matter", set.up_axis);
     }
-}
-
-/// Mean over the covered pixels of a channel's value in the yarn, without the background.
-fn mean_channel(picture: &LinearImage, channel: usize) -> f64 {
-    let (mut sum, mut alpha) = (0.0, 0.0);
-    for pixel in &picture.pixels {
-        sum += f64::from(pixel[channel]);
-        alpha += f64::from(pixel[3]);
-    }
-    sum / alpha
 }
 
 #[test]

@@ -4,8 +4,8 @@
 #include "../../lib/strip.glsl"
 
 void run() {
-    vec3 tangent = take_vec3();
-    vec3 side = take_vec3();
     float across = take_float();
-    give(strip_normal(tangent, side, across));
+    vec4 normals = strip_normals(across);
+    give(normals.xyz);
+    give(normals.w);
 }
