@@ -2,9 +2,10 @@
 
 use crate::pictures::Shot;
 use crate::report::{Verdicts, overrides_line, print_columns, print_head};
-use crate::stage::{Cloth, DEFAULT_SAMPLES, EVERY_FIBER, Model, Stage, joined, pixel_tangent, request};
-use std::path::PathBuf;
+use crate::stage::{Cloth, EVERY_FIBER, FrameOptions, Model, Stage, pixel_tangent, request, shoot};
 use worsted::error::Error;
+use worsted::frame::Renderer;
+use worsted::scene::file::CameraTable;
 
 /// Most FLIP of two successive frames, as a multiple of the median of its neighbours.
 const MOST_JUMP: f64 = 2.0;
@@ -33,15 +34,8 @@ pub struct Options {
     /// Frames from the nearest to the farthest distance.
     #[arg(long, default_value_t = 120, value_parser = clap::value_parser!(u32).range(3..=2000))]
     frames: u32,
-    /// Samples per pixel of the frames: 1, 4, 16, 36, 64 ...
-    #[arg(long, default_value_t = DEFAULT_SAMPLES)]
-    samples: u32,
-    /// Set a scene key of the default side. May be given more than once.
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
-    /// A folder for the frames.
-    #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    common: FrameOptions,
 }
 
 /// Draws the dolly, prints both tables and whether the limits hold.
@@ -54,11 +48,11 @@ pub fn run(stage: &Stage, options: &Options) -> Result<(), Error> {
         format!(
             "stockinette of {YARN}, {} frames of {width} x {height} at {} samples a pixel, from {NEAREST_MM} to \
              {FARTHEST_MM} mm in equal ratios, field of view {FOV_Y_DEG} degrees",
-            options.frames, options.samples
+            options.frames, options.common.samples
         ),
         "FLIP of a frame and the one before, as displayed, over the pixels that yarn covers in either"
             .to_owned(),
-        overrides_line(&options.set),
+        overrides_line(&options.common.set),
     ];
     print_head("Dolly", stage.device(), &lines);
     let model = stage.model(YARN, CLOTH)?;
@@ -74,14 +68,15 @@ fn distance_mm(frame: u32, frames: u32) -> f64 {
     NEAREST_MM * (FARTHEST_MM / NEAREST_MM).powf(f64::from(frame) / f64::from(frames - 1))
 }
 
-fn camera_sets(model: &Model, distance_mm: f64) -> Vec<String> {
-    vec![
-        format!("camera.fov_y_deg={FOV_Y_DEG:?}"),
-        "camera.yaw_deg=20".to_owned(),
-        "camera.pitch_deg=15".to_owned(),
-        format!("camera.distance_mm={distance_mm:?}"),
-        format!("camera.target_mm=[0.0, 0.0, {:?}]", model.front_mm),
-    ]
+fn camera(model: &Model, distance_mm: f64) -> CameraTable {
+    CameraTable {
+        fov_y_deg: FOV_Y_DEG,
+        yaw_deg: 20.0,
+        pitch_deg: Some(15.0),
+        distance_mm: Some(distance_mm),
+        target_mm: Some([0.0, 0.0, model.front_mm]),
+        ..Default::default()
+    }
 }
 
 /// Draws the frames and gives the FLIP of every frame and the one before it.
@@ -89,11 +84,14 @@ fn print_frames(stage: &Stage, model: &Model, options: &Options) -> Result<Vec<f
     print_columns(&["frame", "distance mm", "fiber px", "mean radiance", "FLIP to the frame before"]);
     let mut flips = Vec::new();
     let mut before: Option<Shot> = None;
+    let common = &options.common;
+    let request = request(SIZE, common.samples, false)?;
+    let mut renderer = stage.renderer(&model.path, &common.set, request)?;
     for frame in 0..options.frames {
         let distance_mm = distance_mm(frame, options.frames);
-        let sets = joined(&camera_sets(model, distance_mm), &options.set);
-        let shot = stage.draw(&model.path, &sets, request(SIZE, options.samples, false)?)?;
-        shot.save(options.output.as_deref(), &format!("{frame:04}"))?;
+        renderer.set_camera(camera(model, distance_mm));
+        let shot = shoot(&mut renderer)?;
+        shot.save(common.output.as_deref(), &format!("{frame:04}"))?;
         let fiber_px = 2.0 * model.yarn.fiber_radius_mm() / (distance_mm * pixel_tangent(FOV_Y_DEG, SIZE[1]));
         let mut cell = String::new();
         if let Some(before) = &before {
@@ -148,16 +146,17 @@ fn compare_colors(
         "Mean radiance of the yarn (red, green, blue), both sides at {COLOR_SAMPLES} samples a pixel:\n"
     );
     print_columns(&["distance mm", "default", "every fiber", "largest relative change"]);
+    let request = request(SIZE, COLOR_SAMPLES, false)?;
+    let mut defaults = stage.renderer(&model.path, &options.common.set, request)?;
+    let mut everies = stage.renderer(&model.path, &[EVERY_FIBER.to_owned()], request)?;
     let mut largest = (0.0, NEAREST_MM);
     for i in 0..COLOR_DISTANCES {
         let distance_mm = distance_mm(i as u32, COLOR_DISTANCES as u32);
-        let view = camera_sets(model, distance_mm);
-        let mean = |sets: &[String]| -> Result<[f64; 3], Error> {
-            let request = request(SIZE, COLOR_SAMPLES, false)?;
-            stage.draw(&model.path, &joined(&view, sets), request)?.mean_radiance()
+        let mean = |renderer: &mut Renderer| -> Result<[f64; 3], Error> {
+            renderer.set_camera(camera(model, distance_mm));
+            shoot(renderer)?.mean_radiance()
         };
-        let default = mean(&options.set)?;
-        let every = mean(&[EVERY_FIBER.to_owned()])?;
+        let (default, every) = (mean(&mut defaults)?, mean(&mut everies)?);
         let change = largest_change(default, every);
         println!("| {distance_mm:.1} | {} | {} | {change:.4} |", rgb(default), rgb(every));
         if change > largest.0 || change.is_nan() {

@@ -139,14 +139,43 @@ impl Stage {
     /// # Errors
     /// Those of the scene and of the device; pixels that are no numbers.
     pub fn draw(&self, path: &Path, sets: &[String], request: Request) -> Result<Shot, Error> {
-        let mut renderer = Renderer::new(&self.device, Scene::load(path, sets)?, request)?;
-        let picture = renderer.render(&|_| {})?;
-        let stats = renderer.stats().clone();
-        if stats.nan_pixels > 0 {
-            return Err(Error::Failed(format!("{} pixels are not finite numbers", stats.nan_pixels)));
-        }
-        Ok(Shot::new(picture, stats))
+        shoot(&mut self.renderer(path, sets, request)?)
     }
+
+    /// What draws the scene at `path` again and again, with scene keys overridden in the order given.
+    ///
+    /// # Errors
+    /// Those of the scene and of the device.
+    pub fn renderer(&self, path: &Path, sets: &[String], request: Request) -> Result<Renderer, Error> {
+        Ok(Renderer::new(&self.device, Scene::load(path, sets)?, request)?)
+    }
+}
+
+/// Draws one picture.
+///
+/// # Errors
+/// Those of the device; pixels that are no numbers.
+pub fn shoot(renderer: &mut Renderer) -> Result<Shot, Error> {
+    let picture = renderer.render(&|_| {})?;
+    let stats = renderer.stats().clone();
+    if stats.nan_pixels > 0 {
+        return Err(Error::Failed(format!("{} pixels are not finite numbers", stats.nan_pixels)));
+    }
+    Ok(Shot::new(picture, stats))
+}
+
+/// What the measurements of many frames are told alike.
+#[derive(Debug, clap::Args)]
+pub struct FrameOptions {
+    /// Samples per pixel of the frames: 1, 4, 16, 36, 64 ...
+    #[arg(long, default_value_t = DEFAULT_SAMPLES)]
+    pub samples: u32,
+    /// Set a scene key of what is measured, the camera's apart. May be given more than once.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// A folder for the frames.
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
 }
 
 /// A picture of `size` pixels and `samples` samples a pixel.

@@ -1,9 +1,9 @@
 //! A turn around a tube so close that pieces of yarn come and go: culling must not show.
 
 use crate::report::{Verdicts, overrides_line, print_columns, print_head};
-use crate::stage::{Cloth, DEFAULT_SAMPLES, Stage, joined, request};
-use std::path::PathBuf;
+use crate::stage::{Cloth, FrameOptions, Stage, joined, request, shoot};
 use worsted::error::Error;
+use worsted::scene::file::CameraTable;
 
 /// Most FLIP of a frame with culling against the same without.
 const MOST_FLIP: f64 = 0.002;
@@ -22,15 +22,8 @@ pub struct Options {
     /// Frames of one turn.
     #[arg(long, default_value_t = 24, value_parser = clap::value_parser!(u32).range(2..=2000))]
     frames: u32,
-    /// Samples per pixel: 1, 4, 16, 36, 64 ...
-    #[arg(long, default_value_t = DEFAULT_SAMPLES)]
-    samples: u32,
-    /// Set a scene key of both sides. May be given more than once.
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
-    /// A folder for the frames.
-    #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    common: FrameOptions,
 }
 
 /// Draws the turn with culling and without, prints the table and whether the limit holds.
@@ -39,35 +32,39 @@ pub struct Options {
 /// Those of the scene and the device; a limit that does not hold; a turn in which nothing comes or goes.
 pub fn run(stage: &Stage, options: &Options) -> Result<(), Error> {
     let [width, height] = SIZE;
+    let common = &options.common;
     let lines = [
         format!(
             "tube of {YARN}, {} frames of {width} x {height}, both sides at {} samples a pixel",
-            options.frames, options.samples
+            options.frames, common.samples
         ),
         "FLIP of the frame with culling against the frame without, as displayed, over covered pixels"
             .to_owned(),
-        overrides_line(&options.set),
+        overrides_line(&common.set),
     ];
     print_head("Culling on a turntable", stage.device(), &lines);
     print_columns(&["frame", "yaw deg", "pieces drawn", "pieces culled", "FLIP", "holds"]);
     let model = stage.model(YARN, CLOTH)?;
     let mut verdicts = Verdicts::default();
     let mut culled = Vec::new();
+    let renderer = |culling: bool| {
+        let sets = joined(&common.set, &[format!("quality.culling={culling}")]);
+        stage.renderer(&model.path, &sets, request(SIZE, common.samples, true)?)
+    };
+    let (mut culling, mut whole) = (renderer(true)?, renderer(false)?);
     for frame in 0..options.frames {
         let yaw_deg = 360.0 * f64::from(frame) / f64::from(options.frames);
-        let view = [
-            format!("camera.yaw_deg={yaw_deg:?}"),
-            "camera.pitch_deg=12".to_owned(),
-            format!("camera.distance_mm={:?}", DISTANCE_RADII * model.reach_mm),
-            format!("camera.target_mm=[{:?}, 0.0, 0.0]", OFFSET_RADII * model.reach_mm),
-        ];
-        let sets = joined(&options.set, &view);
-        let draw = |culling: bool| {
-            let sets = joined(&sets, &[format!("quality.culling={culling}")]);
-            stage.draw(&model.path, &sets, request(SIZE, options.samples, true)?)
+        let camera = CameraTable {
+            yaw_deg,
+            pitch_deg: Some(12.0),
+            distance_mm: Some(DISTANCE_RADII * model.reach_mm),
+            target_mm: Some([OFFSET_RADII * model.reach_mm, 0.0, 0.0]),
+            ..Default::default()
         };
-        let (with, without) = (draw(true)?, draw(false)?);
-        with.save(options.output.as_deref(), &format!("{frame:04}"))?;
+        culling.set_camera(camera.clone());
+        whole.set_camera(camera);
+        let (with, without) = (shoot(&mut culling)?, shoot(&mut whole)?);
+        with.save(common.output.as_deref(), &format!("{frame:04}"))?;
         let flip = with.displayed_flip(&without)?;
         let holds = verdicts.at_most(&format!("FLIP of frame {frame}"), flip, MOST_FLIP);
         let [drawn, gone] =
