@@ -25,8 +25,9 @@ const YARN: &str = "worsted_3ply";
 const CLOTH: Cloth = Cloth::Stockinette { wales: 9, courses: 13 };
 /// Distances at which the mean colour is compared with that of every fiber.
 const COLOR_DISTANCES: usize = 8;
-/// Samples a pixel of those pictures: the mean over the farthest swatch then errs by less than 1%.
-const COLOR_SAMPLES: u32 = 16;
+/// Samples a pixel of those pictures. The farthest swatch is 260 pixels, and samples of thin fibers deviate by
+/// two thirds of their mean: by sampling alone both sides err by 1% at 16 samples, by 0.5% at 64.
+const COLOR_SAMPLES: u32 = 64;
 
 /// `measure dolly`.
 #[derive(Debug, clap::Args)]
