@@ -17,6 +17,7 @@ use crate::scene::camera::Camera;
 use crate::scene::features::Features;
 use crate::scene::file::CameraTable;
 use crate::vulkan::{Buffer, Device, ImageState, MemoryKind, VulkanError, vk};
+use crate::yarn::table::fiber_table;
 use sampling::Sampling;
 use stats::Stats;
 use std::collections::{BTreeMap, HashMap};
@@ -79,17 +80,19 @@ impl Renderer {
         let mut stats = Stats::new(device, &scene, &request);
         for fabric in &scene.fabrics {
             let features = Features::new(&scene.file, fabric, request.statistics);
+            let cross_section = fiber_table(&fabric.yarn, scene.file.seed);
             let started = Instant::now();
             let occlusion = features.distance_occlusion.then(|| fit_distance_occlusion(&fabric.yarn));
             if occlusion.is_some() {
                 stats.add_precompute("distance_occlusion", started.elapsed());
             }
             let started = Instant::now();
-            let core = features.core_fibers.then(|| upload::core_texture(&scene, fabric));
+            let core = features.core_fibers.then(|| upload::core_texture(&scene, fabric, &cross_section));
             if core.is_some() {
                 stats.add_precompute("core_texture", started.elapsed());
             }
-            let buffers = upload::fabric_buffers(device, &scene, fabric, occlusion, core.as_ref())?;
+            let buffers =
+                upload::fabric_buffers(device, &scene, fabric, &cross_section, occlusion, core.as_ref())?;
             fibers.add_fabric(&buffers, features, samples)?;
             stats.add_left_out(&features);
         }

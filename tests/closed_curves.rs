@@ -12,7 +12,8 @@ use std::path::{Path, PathBuf};
 use worsted::frame::sampling::Sampling;
 use worsted::frame::{Renderer, Request};
 use worsted::io::bcc::write_bcc;
-use worsted::knit::tube::{TubeParams, tube};
+use worsted::knit::params::KnitParams;
+use worsted::knit::tube::tube;
 use worsted::scene::Scene;
 use worsted::scene::features::Features;
 use worsted::vulkan::DeviceChoice;
@@ -185,7 +186,7 @@ fn field(scene: &Scene) -> FiberField {
 /// A small tube on disk, as `worsted knit tube` writes it.
 fn tube_file(folder: &tempfile::TempDir) -> PathBuf {
     let path = folder.path().join("tube.bcc");
-    let knit = tube(&TubeParams { courses: 5, wales: 12, ..Default::default() }).expect("a sound tube");
+    let knit = tube(&KnitParams { courses: 5, wales: 12, ..KnitParams::tube() }).expect("a sound tube");
     write_bcc(&path, &knit).expect("the temporary folder is ours to use");
     path
 }

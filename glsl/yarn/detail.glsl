@@ -35,13 +35,19 @@ float lod_factor(float fiber_px, float ply_px, float threshold) {
     return (fiber_px / threshold) * ((ply_px - threshold) / (ply_px - fiber_px));
 }
 
+// Share of all fibers that is kept where each is `fiber_px` pixels wide and `thin` pixels are the least allowed;
+// above 1 none is dropped.
+float share_kept(float fiber_px, float thin) {
+    return fiber_px / thin;
+}
+
 // What is drawn of a yarn whose pixels are `pixel_mm` wide at its place. `threshold` and `thin` in pixels.
 Detail detail_of(float pixel_mm, float threshold, float thin, Yarn yarn) {
     float fiber_px = 2.0 * yarn.fiber_radius / pixel_mm;
     float factor = lod_factor(fiber_px, 2.0 * yarn.ply_radius / pixel_mm, threshold);
     Detail detail;
     detail.kept = factor * factor * yarn.core_ranks;
-    detail.share = fiber_px / thin;
+    detail.share = share_kept(fiber_px, thin);
     detail.level = (1.0 - factor) * float(CORE_LEVELS - 1u);
     return detail;
 }

@@ -1,6 +1,7 @@
 //! What can be typed.
 
 use crate::frame::sampling::Sampling;
+use crate::knit::params::KnitParams;
 use clap::{Args as ClapArgs, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -108,10 +109,10 @@ pub enum Pattern {
 #[derive(Debug, ClapArgs)]
 pub struct Stockinette {
     /// Rows of loops.
-    #[arg(long, default_value_t = 12)]
+    #[arg(long, default_value_t = KnitParams::swatch().courses)]
     pub courses: u32,
     /// Loops in a row.
-    #[arg(long, default_value_t = 10)]
+    #[arg(long, default_value_t = KnitParams::swatch().wales)]
     pub wales: u32,
     /// What every pattern takes.
     #[command(flatten)]
@@ -122,10 +123,10 @@ pub struct Stockinette {
 #[derive(Debug, ClapArgs)]
 pub struct Tube {
     /// Rounds of loops.
-    #[arg(long, default_value_t = 16)]
+    #[arg(long, default_value_t = KnitParams::tube().courses)]
     pub courses: u32,
     /// Loops around the tube, at least 10.
-    #[arg(long, default_value_t = 24)]
+    #[arg(long, default_value_t = KnitParams::tube().wales)]
     pub wales: u32,
     /// What every pattern takes.
     #[command(flatten)]

@@ -5,7 +5,7 @@ use super::open_device;
 use crate::error::Error;
 use crate::frame::sampling::Sampling;
 use crate::frame::{Renderer, Request};
-use crate::knit::stockinette::StockinetteParams;
+use crate::knit::params::KnitParams;
 use crate::scene::{Scene, SceneFile};
 use crate::vulkan::{Device, DeviceFacts, DoctorReport, inspect};
 use std::sync::Arc;
@@ -91,6 +91,6 @@ fn draw_caps_agree(device: &Arc<Device>) -> Result<(), Error> {
 fn self_check_scene(patches_per_draw: u32) -> Result<Scene, Error> {
     let mut file = SceneFile::default();
     file.quality.patches_per_draw = Some(patches_per_draw);
-    let knit = StockinetteParams { courses: 2, wales: 3, ..Default::default() };
+    let knit = KnitParams { courses: 2, wales: 3, ..KnitParams::swatch() };
     Ok(Scene::stockinette(file, &knit)?)
 }

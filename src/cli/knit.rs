@@ -1,13 +1,14 @@
 //! `worsted knit`.
 
-use super::args::{Knit, Knitting, Pattern};
+use super::args::{Knit, Knitting, Pattern, Stockinette, Tube};
 use crate::error::Error;
 use crate::io::bcc::write_bcc;
 use crate::io::curves::CurveSet;
 use crate::io::whole::check_target;
 use crate::knit::error::KnitError;
-use crate::knit::stockinette::{StockinetteParams, stockinette};
-use crate::knit::tube::{TubeParams, tube};
+use crate::knit::params::KnitParams;
+use crate::knit::stockinette::stockinette;
+use crate::knit::tube::tube;
 use crate::yarn::presets;
 
 /// Generates a fabric and writes it.
@@ -16,32 +17,25 @@ use crate::yarn::presets;
 /// Parameters that give no sound fabric; a file that cannot be written.
 pub fn run(args: &Knit) -> Result<(), Error> {
     match &args.pattern {
-        Pattern::Stockinette(args) => {
-            let default = StockinetteParams::default();
-            let knitting = &args.knitting;
-            let params = StockinetteParams {
-                courses: args.courses,
-                wales: args.wales,
-                yarn_radius_mm: yarn_radius_mm(knitting, default.yarn_radius_mm),
-                wale_spacing_mm: knitting.wale_spacing,
-                course_spacing_mm: knitting.course_spacing,
-                points_per_loop: knitting.points_per_loop.unwrap_or(default.points_per_loop),
-            };
-            write(knitting, || stockinette(&params))
+        Pattern::Stockinette(Stockinette { courses, wales, knitting }) => {
+            write(knitting, || stockinette(&params(*courses, *wales, knitting)))
         }
-        Pattern::Tube(args) => {
-            let default = TubeParams::default();
-            let knitting = &args.knitting;
-            let params = TubeParams {
-                courses: args.courses,
-                wales: args.wales,
-                yarn_radius_mm: yarn_radius_mm(knitting, default.yarn_radius_mm),
-                wale_spacing_mm: knitting.wale_spacing,
-                course_spacing_mm: knitting.course_spacing,
-                points_per_loop: knitting.points_per_loop.unwrap_or(default.points_per_loop),
-            };
-            write(knitting, || tube(&params))
+        Pattern::Tube(Tube { courses, wales, knitting }) => {
+            write(knitting, || tube(&params(*courses, *wales, knitting)))
         }
+    }
+}
+
+/// What was asked for, the rest as every pattern has it by default.
+fn params(courses: u32, wales: u32, args: &Knitting) -> KnitParams {
+    let default = KnitParams::swatch();
+    KnitParams {
+        courses,
+        wales,
+        yarn_radius_mm: yarn_radius_mm(args, default.yarn_radius_mm),
+        wale_spacing_mm: args.wale_spacing,
+        course_spacing_mm: args.course_spacing,
+        points_per_loop: args.points_per_loop.unwrap_or(default.points_per_loop),
     }
 }
 

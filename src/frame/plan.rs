@@ -6,7 +6,7 @@ use crate::passes::strand_pipeline::Strands;
 use crate::scene::camera::Camera;
 use crate::scene::features::Features;
 use crate::scene::{Fabric, Scene};
-use crate::yarn::detail::{DetailWidths, detail_of, slots_kept};
+use crate::yarn::detail::{share_kept, slots_kept};
 use crate::yarn::flyaway::Flyaways;
 use glam::DVec3;
 
@@ -26,15 +26,9 @@ pub fn draw_plan(
         Strands::Core => fabric.yarn.ply_count,
         Strands::Regular if features.level_of_detail => {
             let pixel_mm = camera.pixel_tangent(request.size) * nearest_depth_mm(scene, fabric, camera);
-            let spacing_px = request.sampling.spacing_px();
-            let widths = DetailWidths {
-                fiber_radius_mm: fabric.yarn.fiber_radius_mm(),
-                ply_radius_mm: fabric.yarn.round_ply_radius_mm(),
-                core_ranks: f64::from(fabric.yarn.fibers_per_ply),
-            };
-            let threshold = quality.lod_threshold_samples * spacing_px;
-            let detail = detail_of(pixel_mm, threshold, quality.thin_fiber_samples * spacing_px, &widths);
-            slots_kept(detail.share, all)
+            let fiber_px = 2.0 * fabric.yarn.fiber_radius_mm() / pixel_mm;
+            let thin_px = quality.thin_fiber_samples * request.sampling.spacing_px();
+            slots_kept(share_kept(fiber_px, thin_px), all)
         }
         Strands::Regular => all,
     };

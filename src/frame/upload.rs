@@ -15,7 +15,7 @@ use crate::yarn::fiber::Turns;
 use crate::yarn::flyaway::Flyaways;
 use crate::yarn::params::Spread;
 use crate::yarn::strand::Piece;
-use crate::yarn::table::fiber_table;
+use crate::yarn::table;
 use glam::{DMat4, DVec3, DVec4};
 use half::f16;
 use std::sync::Arc;
@@ -57,15 +57,15 @@ pub fn segments(fabric: &Fabric) -> Vec<Segment> {
     strands.pieces.iter().map(|piece| segment(piece, strands.period_counts[piece.curve])).collect()
 }
 
-/// The fibers of a fabric's cross-section.
-pub fn fibers(fabric: &Fabric, seed: u64) -> Vec<Fiber> {
-    let fiber = |f: crate::yarn::table::Fiber| Fiber {
+/// The fibers of a cross-section.
+pub fn fibers(cross_section: &[table::Fiber]) -> Vec<Fiber> {
+    let fiber = |f: &table::Fiber| Fiber {
         radius: f.radius as f32,
         angle: f.angle as f32,
         migration_phase: f.migration_phase as f32,
         ply: f.ply,
     };
-    fiber_table(&fabric.yarn, seed).into_iter().map(fiber).collect()
+    cross_section.iter().map(fiber).collect()
 }
 
 /// What all yarns of a fabric share.
@@ -167,15 +167,14 @@ fn columns(m: DMat4) -> [[f32; 4]; 4] {
     m.as_mat4().to_cols_array_2d()
 }
 
-/// Bakes the core texture of a fabric's yarn.
-pub fn core_texture(scene: &Scene, fabric: &Fabric) -> CoreTexture {
+/// Bakes the core texture of a fabric's yarn, whose fibers are `cross_section`.
+pub fn core_texture(scene: &Scene, fabric: &Fabric, cross_section: &[table::Fiber]) -> CoreTexture {
     let quality = &scene.file.quality;
-    let fibers = fiber_table(&fabric.yarn, scene.file.seed);
-    bake_core(&fabric.yarn, &fibers, quality.core_texture_rows, quality.core_visible_share)
+    bake_core(&fabric.yarn, cross_section, quality.core_texture_rows, quality.core_visible_share)
 }
 
-/// Uploads a fabric, once. Without a core the shaders never read its texture, but a descriptor must be there:
-/// one texel stands in.
+/// Uploads a fabric whose fibers are `cross_section`, once. Without a core the shaders never read its texture,
+/// but a descriptor must be there: one texel stands in.
 ///
 /// # Errors
 /// Those of the device.
@@ -183,6 +182,7 @@ pub fn fabric_buffers(
     device: &Arc<Device>,
     scene: &Scene,
     fabric: &Fabric,
+    cross_section: &[table::Fiber],
     occlusion: Option<DVec4>,
     core: Option<&CoreTexture>,
 ) -> Result<FabricBuffers, VulkanError> {
@@ -192,7 +192,7 @@ pub fn fabric_buffers(
     Ok(FabricBuffers {
         control_points: Buffer::upload(device, "control points", usage, &points)?,
         segments: Buffer::upload(device, "yarn segments", usage, &segments(fabric))?,
-        fibers: Buffer::upload(device, "fibers", usage, &fibers(fabric, scene.file.seed))?,
+        fibers: Buffer::upload(device, "fibers", usage, &fibers(cross_section))?,
         yarn: Buffer::upload(device, "yarn parameters", usage, &[yarn])?,
         core: core_images(device, core)?,
     })

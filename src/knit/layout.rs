@@ -1,4 +1,9 @@
-//! Which control points of a swatch belong to which loop.
+//! Which control points of a swatch or a tube belong to which loop.
+
+use super::params::KnitParams;
+
+/// Control points of a loose end.
+const TAIL_POINTS: u32 = 2;
 
 /// The order of a serpentine swatch's control points: a tail, then course by course from the bottom,
 /// even ones to the right and odd ones to the left, with a turn between two courses, then a tail.
@@ -28,6 +33,17 @@ pub struct LoopPlace {
 }
 
 impl Layout {
+    /// That of the swatch that [`super::stockinette::stockinette`] knits.
+    pub fn new(params: &KnitParams) -> Self {
+        let [wale, course] = params.spacing_diameters();
+        // Peirce's loop length, 2 C + W + 5.94 diameters, says how many of a loop's points a half circle
+        // from course to course deserves.
+        let share = 0.5 * std::f64::consts::PI * course / (2.0 * course + wale + 5.94);
+        let turn_points = (share * f64::from(params.points_per_loop)).round().max(4.0) as u32 - 1;
+        let KnitParams { courses, wales, points_per_loop, .. } = *params;
+        Self { courses, wales, points_per_loop, turn_points, tail_points: TAIL_POINTS }
+    }
+
     /// Control points of one course: its loops from sinker to sinker, both ends included.
     pub fn course_points(&self) -> u64 {
         u64::from(self.wales) * u64::from(self.points_per_loop) + 1
@@ -71,6 +87,12 @@ pub struct TubeLayout {
 }
 
 impl TubeLayout {
+    /// That of the tube that [`super::tube::tube`] knits.
+    pub fn new(params: &KnitParams) -> Self {
+        let KnitParams { courses, wales, points_per_loop, .. } = *params;
+        Self { courses, wales, points_per_loop }
+    }
+
     /// Control points of one course.
     pub fn course_points(&self) -> u64 {
         u64::from(self.wales) * u64::from(self.points_per_loop)

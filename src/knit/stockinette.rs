@@ -20,117 +20,39 @@ use glam::DVec3;
 use crate::io::curves::{Basis, Curve, CurveSet, UpAxis};
 
 use super::error::KnitError;
-use super::gauge::{Gauge, check_counts, check_size};
 use super::interlock::check_interlock;
 use super::layout::Layout;
+use super::params::KnitParams;
 use super::selvedge::{Turn, turn};
 use super::unit_cell::UnitCell;
 
 /// Centre lines keep at least this part of two yarn radii from each other.
 pub const KEPT_DISTANCE: f64 = 0.995;
 
-/// Control points of a loose end.
-const TAIL_POINTS: u32 = 2;
-
-/// What to knit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StockinetteParams {
-    /// Rows of loops, at least 1.
-    pub courses: u32,
-    /// Columns of loops, at least 1.
-    pub wales: u32,
-    /// The yarn's OUTER radius in millimetres, 0.001 to 1000: strands keep twice that apart.
-    pub yarn_radius_mm: f64,
-    /// Distance between loops of a course, 4.15 to 6.5 yarn diameters; 4.2 where not given.
-    pub wale_spacing_mm: Option<f64>,
-    /// Distance between courses, 2.2 to 4.5 yarn diameters; 2.9 where not given.
-    pub course_spacing_mm: Option<f64>,
-    /// Control points of one loop: a multiple of 4 from 16 to 64.
-    pub points_per_loop: u32,
-}
-
-impl Default for StockinetteParams {
-    /// 12 courses of 10 loops in yarn of 0.75 mm outer radius, 20 points a loop (1.5 radii apart).
-    fn default() -> Self {
-        Self {
-            courses: 12,
-            wales: 10,
-            yarn_radius_mm: 0.75,
-            wale_spacing_mm: None,
-            course_spacing_mm: None,
-            points_per_loop: 20,
-        }
-    }
-}
-
-impl StockinetteParams {
-    /// Checks every parameter against its range.
-    ///
-    /// # Errors
-    /// The first parameter outside its range, with the range in millimetres at this yarn radius.
-    pub fn validate(&self) -> Result<(), KnitError> {
-        let counts = [self.courses, self.wales];
-        check_counts(counts, [1, 1])?;
-        self.gauge().validate()?;
-        check_size(self.layout().point_count(), counts, "swatch")
-    }
-
-    fn gauge(&self) -> Gauge {
-        Gauge {
-            yarn_radius_mm: self.yarn_radius_mm,
-            wale_spacing_mm: self.wale_spacing_mm,
-            course_spacing_mm: self.course_spacing_mm,
-            points_per_loop: self.points_per_loop,
-        }
-    }
-
-    /// Wale and course spacing in millimetres, defaults filled in.
-    pub fn spacing_mm(&self) -> [f64; 2] {
-        self.gauge().spacing_mm()
-    }
-
-    /// Arc length along the yarn, in millimetres, within which two places are neighbours and not
-    /// distinct strands: what [`super::clearance::min_clearance`] should skip.
-    pub fn arc_skip_mm(&self) -> f64 {
-        self.gauge().arc_skip_mm()
-    }
-
-    /// Which control points belong to which loop.
-    pub fn layout(&self) -> Layout {
-        let [wale, course] = self.gauge().spacing_diameters();
-        // Peirce's loop length, 2 C + W + 5.94 diameters, says how many of a loop's points a half circle
-        // from course to course deserves.
-        let share = 0.5 * std::f64::consts::PI * course / (2.0 * course + wale + 5.94);
-        let turn_points = (share * f64::from(self.points_per_loop)).round().max(4.0) as u32 - 1;
-        Layout {
-            courses: self.courses,
-            wales: self.wales,
-            points_per_loop: self.points_per_loop,
-            turn_points,
-            tail_points: TAIL_POINTS,
-        }
-    }
-}
+/// Fewest courses and wales.
+const LEAST_COUNTS: [u32; 2] = [1, 1];
 
 /// Knits the swatch: one open Catmull-Rom curve in millimetres, Y up.
 ///
 /// # Errors
-/// What [`StockinetteParams::validate`] refuses, and [`KnitError::Unsound`] should a gauge inside the
-/// allowed range fail to relax to a cloth whose strands keep clear of each other.
-pub fn stockinette(params: &StockinetteParams) -> Result<CurveSet, KnitError> {
-    params.validate()?;
-    let (gauge, layout) = (params.gauge(), params.layout());
-    let cell = gauge.cell();
+/// The first parameter outside its range, with the range in millimetres at this yarn radius, and
+/// [`KnitError::Unsound`] should a gauge inside the allowed range fail to relax to a cloth whose strands
+/// keep clear of each other.
+pub fn stockinette(params: &KnitParams) -> Result<CurveSet, KnitError> {
+    params.validate(LEAST_COUNTS)?;
+    let layout = Layout::new(params);
+    params.check_size(layout.point_count(), "swatch")?;
+    let cell = params.cell();
     let turn = turn(&cell, layout.turn_points as usize);
     if !(cell.is_sound() && turn.is_sound()) {
-        return Err(gauge.too_close(cell.clearance.min(turn.clearance)));
+        return Err(params.too_close(cell.clearance.min(turn.clearance)));
     }
     // A corner of the swatch holds every kind of stitch and turn.
     let corner = Layout { courses: layout.courses.min(4), wales: layout.wales.min(3), ..layout };
     let sample = one_yarn(swatch(&cell, &turn, &corner));
-    check_interlock(&sample, &corner).map_err(|fault| gauge.unsound(fault.to_string()))?;
+    check_interlock(&sample, &corner).map_err(|fault| params.unsound(fault.to_string()))?;
     let mut points = swatch(&cell, &turn, &layout);
-    points.iter_mut().for_each(|p| *p *= gauge.diameter_mm());
+    points.iter_mut().for_each(|p| *p *= params.diameter_mm());
     Ok(one_yarn(points))
 }
 

@@ -4,11 +4,13 @@ use glam::DVec3;
 
 use super::clearance::{min_clearance, min_curvature_radius};
 use super::interlock::{check_interlock, crossings_along_z};
-use super::stockinette::{KEPT_DISTANCE, StockinetteParams, stockinette};
+use super::layout::Layout;
+use super::params::KnitParams;
+use super::stockinette::{KEPT_DISTANCE, stockinette};
 use crate::io::curves::CurveSet;
 
-fn params(courses: u32, wales: u32, yarn_radius_mm: f64, gauge: [f64; 2], points: u32) -> StockinetteParams {
-    StockinetteParams {
+fn params(courses: u32, wales: u32, yarn_radius_mm: f64, gauge: [f64; 2], points: u32) -> KnitParams {
+    KnitParams {
         courses,
         wales,
         yarn_radius_mm,
@@ -19,8 +21,8 @@ fn params(courses: u32, wales: u32, yarn_radius_mm: f64, gauge: [f64; 2], points
 }
 
 /// Everything that a sound swatch has; the first thing that is wrong otherwise.
-fn judge(p: &StockinetteParams, swatch: &CurveSet) -> Result<f64, String> {
-    check_interlock(swatch, &p.layout()).map_err(|e| e.to_string())?;
+fn judge(p: &KnitParams, swatch: &CurveSet) -> Result<f64, String> {
+    check_interlock(swatch, &Layout::new(p)).map_err(|e| e.to_string())?;
     let clearance = min_clearance(swatch, p.arc_skip_mm()).ok_or("no strands")?;
     let relative = clearance.distance / (2.0 * p.yarn_radius_mm);
     if relative < KEPT_DISTANCE {
@@ -62,9 +64,9 @@ fn swatches_across_the_allowed_range_are_sound() {
 fn swatches_of_every_small_size_are_sound() {
     for courses in 1..=3 {
         for wales in 1..=3 {
-            let p = StockinetteParams { courses, wales, ..StockinetteParams::default() };
+            let p = KnitParams { courses, wales, ..KnitParams::swatch() };
             let swatch = stockinette(&p).unwrap();
-            assert_eq!(swatch.point_count() as u64, p.layout().point_count());
+            assert_eq!(swatch.point_count() as u64, Layout::new(&p).point_count());
             if courses * wales > 1 {
                 judge(&p, &swatch).unwrap_or_else(|e| panic!("{courses} x {wales}: {e}"));
             }
@@ -76,7 +78,7 @@ fn swatches_of_every_small_size_are_sound() {
 
 #[test]
 fn strands_nearly_touch_wherever_they_cross() {
-    let p = StockinetteParams::default();
+    let p = KnitParams::swatch();
     let swatch = stockinette(&p).unwrap();
     assert!(judge(&p, &swatch).is_ok());
     for crossing in crossings_along_z(&swatch) {
@@ -87,7 +89,7 @@ fn strands_nearly_touch_wherever_they_cross() {
 
 #[test]
 fn default_lies_centred_with_its_face_to_the_front() {
-    let p = StockinetteParams::default();
+    let p = KnitParams::swatch();
     let swatch = stockinette(&p).unwrap();
     let points = &swatch.curves[0].points;
     let low = points.iter().fold(DVec3::INFINITY, |m, &q| m.min(q));
@@ -113,53 +115,53 @@ fn broken_swatches_are_rejected() {
 
     let mut flat = sound.clone();
     flat.curves[0].points.iter_mut().for_each(|q| q.z = 0.0);
-    assert!(check_interlock(&flat, &p.layout()).is_err());
+    assert!(check_interlock(&flat, &Layout::new(&p)).is_err());
     assert!(min_clearance(&flat, p.arc_skip_mm()).unwrap().distance < 0.01);
 
     let mut mirrored = sound.clone();
     for (i, q) in mirrored.curves[0].points.iter_mut().enumerate() {
-        if p.layout().place(i as f64).is_some_and(|place| place.course == 2) {
+        if Layout::new(&p).place(i as f64).is_some_and(|place| place.course == 2) {
             q.z = -q.z;
         }
     }
     assert!(judge(&p, &mirrored).is_err());
-    assert!(check_interlock(&mirrored, &p.layout()).unwrap_err().to_string().contains("course 2"));
+    assert!(check_interlock(&mirrored, &Layout::new(&p)).unwrap_err().to_string().contains("course 2"));
 
     // One course drawn out to the front: every loop unhooked, every strand clear.
     let mut unhooked = sound.clone();
     for (i, q) in unhooked.curves[0].points.iter_mut().enumerate() {
-        if p.layout().place(i as f64).is_some_and(|place| place.course == 2) {
+        if Layout::new(&p).place(i as f64).is_some_and(|place| place.course == 2) {
             q.z += 10.0;
         }
     }
-    assert!(check_interlock(&unhooked, &p.layout()).is_err());
+    assert!(check_interlock(&unhooked, &Layout::new(&p)).is_err());
 
     let mut moved = sound.clone();
-    moved.curves[0].points[p.layout().point_count() as usize / 2].z += 0.4;
+    moved.curves[0].points[Layout::new(&p).point_count() as usize / 2].z += 0.4;
     assert!(judge(&p, &moved).is_err());
 }
 
 #[test]
 fn bad_parameters_are_named_in_one_line() {
-    let good = StockinetteParams::default;
+    let good = KnitParams::swatch;
     let cases = [
-        (StockinetteParams { courses: 0, ..good() }, "courses: expected at least 1, found 0"),
-        (StockinetteParams { wales: 0, ..good() }, "wales: expected at least 1, found 0"),
+        (KnitParams { courses: 0, ..good() }, "courses: expected at least 1, found 0"),
+        (KnitParams { wales: 0, ..good() }, "wales: expected at least 1, found 0"),
         (
-            StockinetteParams { yarn_radius_mm: f64::NAN, ..good() },
+            KnitParams { yarn_radius_mm: f64::NAN, ..good() },
             "yarn_radius_mm: expected 0.001 to 1000 mm, found NaN",
         ),
         (
-            StockinetteParams { points_per_loop: 18, ..good() },
+            KnitParams { points_per_loop: 18, ..good() },
             "points_per_loop: expected a multiple of 4 from 16 to 64, found 18",
         ),
         (
-            StockinetteParams { wale_spacing_mm: Some(6.0), ..good() },
+            KnitParams { wale_spacing_mm: Some(6.0), ..good() },
             "wale_spacing_mm: expected at least 6.2250 mm for yarn_radius_mm = 0.75, below which strands \
              enter each other, found 6",
         ),
         (
-            StockinetteParams { course_spacing_mm: Some(-1.0), ..good() },
+            KnitParams { course_spacing_mm: Some(-1.0), ..good() },
             "course_spacing_mm: expected at least 3.3000 mm for yarn_radius_mm = 0.75, below which strands \
              enter each other, found -1",
         ),
@@ -169,13 +171,13 @@ fn bad_parameters_are_named_in_one_line() {
         assert_eq!(got, want);
     }
     for p in [
-        StockinetteParams { yarn_radius_mm: 0.0, ..good() },
-        StockinetteParams { yarn_radius_mm: f64::INFINITY, ..good() },
-        StockinetteParams { wale_spacing_mm: Some(f64::NAN), ..good() },
-        StockinetteParams { course_spacing_mm: Some(f64::INFINITY), ..good() },
-        StockinetteParams { wale_spacing_mm: Some(100.0), ..good() },
-        StockinetteParams { courses: u32::MAX, wales: u32::MAX, ..good() },
-        StockinetteParams { points_per_loop: u32::MAX, ..good() },
+        KnitParams { yarn_radius_mm: 0.0, ..good() },
+        KnitParams { yarn_radius_mm: f64::INFINITY, ..good() },
+        KnitParams { wale_spacing_mm: Some(f64::NAN), ..good() },
+        KnitParams { course_spacing_mm: Some(f64::INFINITY), ..good() },
+        KnitParams { wale_spacing_mm: Some(100.0), ..good() },
+        KnitParams { courses: u32::MAX, wales: u32::MAX, ..good() },
+        KnitParams { points_per_loop: u32::MAX, ..good() },
     ] {
         let line = stockinette(&p).unwrap_err().to_string();
         assert!(line.contains("expected") && !line.contains('\n'), "{line}");

@@ -24,8 +24,8 @@ use crate::io::curves::{Basis, Curve, CurveSet, UpAxis};
 
 use super::clearance::min_clearance;
 use super::error::KnitError;
-use super::gauge::{Gauge, check_counts, check_size};
 use super::layout::TubeLayout;
+use super::params::KnitParams;
 use super::stockinette::KEPT_DISTANCE;
 use super::unit_cell::{ARC_SKIP, UnitCell};
 use super::unrolled::check_patch;
@@ -35,106 +35,37 @@ const LEAST_COUNTS: [u32; 2] = [1, 10];
 /// Courses and wales of the part that is checked: every kind of neighbour of a stitch.
 const CHECKED: [u32; 2] = [4, 6];
 
-/// What to knit in the round.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TubeParams {
-    /// Rounds of loops, at least 1.
-    pub courses: u32,
-    /// Loops around the tube, at least 10.
-    pub wales: u32,
-    /// The yarn's OUTER radius in millimetres, 0.001 to 1000: strands keep twice that apart.
-    pub yarn_radius_mm: f64,
-    /// Distance between loops of a course along the tube's inside, 4.15 to 6.5 yarn diameters; 4.2 where
-    /// not given.
-    pub wale_spacing_mm: Option<f64>,
-    /// Distance between courses, 2.2 to 4.5 yarn diameters; 2.9 where not given.
-    pub course_spacing_mm: Option<f64>,
-    /// Control points of one loop: a multiple of 4 from 16 to 64.
-    pub points_per_loop: u32,
-}
-
-impl Default for TubeParams {
-    /// 16 courses of 24 loops in yarn of 0.75 mm outer radius, 20 points a loop.
-    fn default() -> Self {
-        Self {
-            courses: 16,
-            wales: 24,
-            yarn_radius_mm: 0.75,
-            wale_spacing_mm: None,
-            course_spacing_mm: None,
-            points_per_loop: 20,
-        }
-    }
-}
-
-impl TubeParams {
-    /// Checks every parameter against its range.
-    ///
-    /// # Errors
-    /// The first parameter outside its range, with the range in millimetres at this yarn radius.
-    pub fn validate(&self) -> Result<(), KnitError> {
-        let counts = [self.courses, self.wales];
-        check_counts(counts, LEAST_COUNTS)?;
-        self.gauge().validate()?;
-        check_size(self.layout().point_count(), counts, "tube")
-    }
-
-    fn gauge(&self) -> Gauge {
-        Gauge {
-            yarn_radius_mm: self.yarn_radius_mm,
-            wale_spacing_mm: self.wale_spacing_mm,
-            course_spacing_mm: self.course_spacing_mm,
-            points_per_loop: self.points_per_loop,
-        }
-    }
-
-    /// Wale and course spacing in millimetres, defaults filled in.
-    pub fn spacing_mm(&self) -> [f64; 2] {
-        self.gauge().spacing_mm()
-    }
-
-    /// Distance of the innermost centre lines from the axis, in millimetres.
-    pub fn inner_radius_mm(&self) -> f64 {
-        let [wale, _] = self.gauge().spacing_diameters();
-        inner_radius(self.wales, wale) * self.gauge().diameter_mm()
-    }
-
-    /// Arc length along the yarn, in millimetres, within which two places are neighbours and not
-    /// distinct strands: what [`super::clearance::min_clearance`] should skip.
-    pub fn arc_skip_mm(&self) -> f64 {
-        self.gauge().arc_skip_mm()
-    }
-
-    /// Which control points belong to which loop.
-    pub fn layout(&self) -> TubeLayout {
-        TubeLayout { courses: self.courses, wales: self.wales, points_per_loop: self.points_per_loop }
-    }
-}
-
 /// Knits the tube: one closed Catmull-Rom curve per course, from the bottom up, in millimetres, Y up,
 /// centred at the origin. Seen from above, courses run counter-clockwise; they begin opposite +Z.
 ///
 /// # Errors
-/// What [`TubeParams::validate`] refuses, and [`KnitError::Unsound`] should a gauge inside the allowed
-/// range fail to give a tube whose strands keep clear of each other.
-pub fn tube(params: &TubeParams) -> Result<CurveSet, KnitError> {
-    params.validate()?;
-    let gauge = params.gauge();
-    let cell = gauge.cell();
+/// The first parameter outside its range, with the range in millimetres at this yarn radius, and
+/// [`KnitError::Unsound`] should a gauge inside the allowed range fail to give a tube whose strands keep
+/// clear of each other.
+pub fn tube(params: &KnitParams) -> Result<CurveSet, KnitError> {
+    params.validate(LEAST_COUNTS)?;
+    let whole = TubeLayout::new(params);
+    params.check_size(whole.point_count(), "tube")?;
+    let cell = params.cell();
     if !cell.is_sound() {
-        return Err(gauge.too_close(cell.clearance));
+        return Err(params.too_close(cell.clearance));
     }
     let roll = Roll::new(&cell, params.wales);
-    let whole = params.layout();
-    check(&cell, &roll, &whole, &gauge)?;
+    check(&cell, &roll, &whole, params)?;
     let mut curves = rounds(&cell, &roll, &whole, true);
     for curve in &mut curves.curves {
-        curve.points.iter_mut().for_each(|p| *p *= gauge.diameter_mm());
+        curve.points.iter_mut().for_each(|p| *p *= params.diameter_mm());
     }
     Ok(curves)
 }
 
-/// Distance of the innermost centre lines from the axis; lengths in yarn diameters.
+/// Distance of the innermost centre lines of a tube from its axis, in millimetres.
+pub fn inner_radius_mm(params: &KnitParams) -> f64 {
+    let [wale, _] = params.spacing_diameters();
+    inner_radius(params.wales, wale) * params.diameter_mm()
+}
+
+/// The same with lengths in yarn diameters.
 fn inner_radius(wales: u32, wale_spacing: f64) -> f64 {
     0.5 / (PI / (f64::from(wales) * wale_spacing)).sin()
 }
@@ -183,12 +114,12 @@ fn rounds(cell: &UnitCell, roll: &Roll, layout: &TubeLayout, closed: bool) -> Cu
 
 /// Refuses a tube whose strands come too close or do not knit, judged by a part of it as everything
 /// repeats around the axis and along it.
-fn check(cell: &UnitCell, roll: &Roll, whole: &TubeLayout, gauge: &Gauge) -> Result<(), KnitError> {
+fn check(cell: &UnitCell, roll: &Roll, whole: &TubeLayout, params: &KnitParams) -> Result<(), KnitError> {
     let [courses, wales] = CHECKED;
     let part = TubeLayout { courses: whole.courses.min(courses), wales: whole.wales.min(wales), ..*whole };
     let sample = rounds(cell, roll, &part, part.wales == whole.wales);
     if let Some(clearance) = min_clearance(&sample, ARC_SKIP).filter(|c| c.distance < KEPT_DISTANCE) {
-        return Err(gauge.too_close(clearance.distance));
+        return Err(params.too_close(clearance.distance));
     }
-    check_patch(&sample, &part).map_err(|fault| gauge.unsound(fault.to_string()))
+    check_patch(&sample, &part).map_err(|fault| params.unsound(fault.to_string()))
 }

@@ -4,13 +4,15 @@ use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
 
 use super::clearance::{min_clearance, min_curvature_radius};
+use super::layout::TubeLayout;
+use super::params::KnitParams;
 use super::stockinette::KEPT_DISTANCE;
-use super::tube::{TubeParams, tube};
+use super::tube::{inner_radius_mm, tube};
 use super::unrolled::check_tube_interlock;
 use crate::io::curves::CurveSet;
 
-fn params(courses: u32, wales: u32, yarn_radius_mm: f64, gauge: [f64; 2], points: u32) -> TubeParams {
-    TubeParams {
+fn params(courses: u32, wales: u32, yarn_radius_mm: f64, gauge: [f64; 2], points: u32) -> KnitParams {
+    KnitParams {
         courses,
         wales,
         yarn_radius_mm,
@@ -22,8 +24,8 @@ fn params(courses: u32, wales: u32, yarn_radius_mm: f64, gauge: [f64; 2], points
 
 /// Clearance in yarn diameters and bending radius in yarn radii of a sound tube; the first thing that is
 /// wrong otherwise.
-fn judge(p: &TubeParams, tube: &CurveSet) -> Result<[f64; 2], String> {
-    check_tube_interlock(tube, &p.layout()).map_err(|e| e.to_string())?;
+fn judge(p: &KnitParams, tube: &CurveSet) -> Result<[f64; 2], String> {
+    check_tube_interlock(tube, &TubeLayout::new(p)).map_err(|e| e.to_string())?;
     let clearance = min_clearance(tube, p.arc_skip_mm()).ok_or("no strands")?;
     let relative = clearance.distance / (2.0 * p.yarn_radius_mm);
     if relative < KEPT_DISTANCE {
@@ -48,7 +50,7 @@ fn tubes_across_the_allowed_range_are_sound() {
             cases.extend([2.2, 2.9, 4.5].map(|course| params(3, wales, 0.75, [wale, course], 16)));
         }
     }
-    cases.extend((1..=3).map(|courses| TubeParams { courses, ..TubeParams::default() }));
+    cases.extend((1..=3).map(|courses| KnitParams { courses, ..KnitParams::tube() }));
     let (mut faults, mut least) = (Vec::new(), [f64::INFINITY; 2]);
     for p in &cases {
         let verdict = tube(p).map_err(|e| e.to_string()).and_then(|tube| judge(p, &tube));
@@ -65,18 +67,18 @@ fn tubes_across_the_allowed_range_are_sound() {
 
 #[test]
 fn default_stands_centred_with_its_face_outward() {
-    let p = TubeParams::default();
+    let p = KnitParams::tube();
     let knit = tube(&p).unwrap();
     assert_eq!(knit, tube(&p).unwrap());
     assert_eq!(knit.curves.len(), 16);
-    assert_eq!(knit.point_count() as u64, p.layout().point_count());
+    assert_eq!(knit.point_count() as u64, TubeLayout::new(&p).point_count());
     assert!(knit.curves.iter().all(|c| c.closed && c.points.len() == 24 * 20));
     let points: Vec<DVec3> = knit.curves.iter().flat_map(|c| c.points.iter().copied()).collect();
     let centre = points.iter().sum::<DVec3>() / points.len() as f64;
     assert!(centre.length() < 1e-9, "{centre}");
     let radii = || points.iter().map(|q| q.x.hypot(q.z));
     let inner = radii().fold(f64::INFINITY, f64::min);
-    assert!((inner - p.inner_radius_mm()).abs() < 1e-9, "{inner}, expected {}", p.inner_radius_mm());
+    assert!((inner - inner_radius_mm(&p)).abs() < 1e-9, "{inner}, expected {}", inner_radius_mm(&p));
     // Wale by wale, the inside is as the flat cloth or a little wider.
     let [wale_mm, course_mm] = p.spacing_mm();
     let ratio = TAU * inner / (24.0 * wale_mm);
@@ -102,7 +104,7 @@ fn broken_tubes_are_rejected() {
         tube.curves[course].points.iter_mut().for_each(|q| *q = edit(*q));
     };
 
-    let thick = TubeParams { yarn_radius_mm: 0.8, wale_spacing_mm: None, ..p.clone() };
+    let thick = KnitParams { yarn_radius_mm: 0.8, wale_spacing_mm: None, ..p };
     assert!(judge(&thick, &sound).unwrap_err().contains("clearance"));
     assert!(
         fault(&|t| t.curves.iter_mut().for_each(|c| c.points.iter_mut().for_each(|q| *q *= 0.9)))
@@ -143,7 +145,7 @@ fn faults_at_the_seam_are_seen_from_both_sides() {
         for q in &mut dropped.curves[1].points[heads - 5..=heads + 5] {
             *q += DVec3::new(q.x, 0.0, q.z).normalize() * 6.0;
         }
-        let found = check_tube_interlock(&dropped, &p.layout()).unwrap_err();
+        let found = check_tube_interlock(&dropped, &TubeLayout::new(&p)).unwrap_err();
         assert_eq!((found.course, found.wale), (2, wale), "{found}");
     }
     // The last loop of course 1 reaches across the seam into the first one's place.
@@ -151,23 +153,23 @@ fn faults_at_the_seam_are_seen_from_both_sides() {
     for q in &mut across.curves[1].points[184..=196] {
         *q = DQuat::from_rotation_y(TAU / 10.0) * *q;
     }
-    let found = check_tube_interlock(&across, &p.layout()).unwrap_err().to_string();
+    let found = check_tube_interlock(&across, &TubeLayout::new(&p)).unwrap_err().to_string();
     assert!(found.contains("crossings with the loop above and below only"), "{found}");
 }
 
 #[test]
 fn bad_parameters_are_named_in_one_line() {
-    let good = TubeParams::default;
+    let good = KnitParams::tube;
     let cases = [
-        (TubeParams { courses: 0, ..good() }, "courses: expected at least 1, found 0"),
-        (TubeParams { wales: 9, ..good() }, "wales: expected at least 10, found 9"),
+        (KnitParams { courses: 0, ..good() }, "courses: expected at least 1, found 0"),
+        (KnitParams { wales: 9, ..good() }, "wales: expected at least 10, found 9"),
         (
-            TubeParams { wale_spacing_mm: Some(6.0), ..good() },
+            KnitParams { wale_spacing_mm: Some(6.0), ..good() },
             "wale_spacing_mm: expected at least 6.2250 mm for yarn_radius_mm = 0.75, below which strands \
              enter each other, found 6",
         ),
         (
-            TubeParams { courses: u32::MAX, wales: u32::MAX, ..good() },
+            KnitParams { courses: u32::MAX, wales: u32::MAX, ..good() },
             "courses and wales: expected a tube of at most 16777216 control points, found 4294967295 \
              courses of 4294967295 loops, 18446744073709551615 control points",
         ),
@@ -176,9 +178,9 @@ fn bad_parameters_are_named_in_one_line() {
         assert_eq!(tube(&p).unwrap_err().to_string(), want);
     }
     for p in [
-        TubeParams { yarn_radius_mm: f64::NAN, ..good() },
-        TubeParams { course_spacing_mm: Some(f64::INFINITY), ..good() },
-        TubeParams { points_per_loop: 0, ..good() },
+        KnitParams { yarn_radius_mm: f64::NAN, ..good() },
+        KnitParams { course_spacing_mm: Some(f64::INFINITY), ..good() },
+        KnitParams { points_per_loop: 0, ..good() },
     ] {
         let line = tube(&p).unwrap_err().to_string();
         assert!(line.contains("expected") && !line.contains('\n'), "{line}");

@@ -6,7 +6,8 @@ use super::yarn_table::check_yarns;
 use super::{Fabric, Scene, SceneError, overrides};
 use crate::io::error::{FileError, Place};
 use crate::io::yarn_file::Loaded;
-use crate::knit::stockinette::{StockinetteParams, stockinette};
+use crate::knit::params::KnitParams;
+use crate::knit::stockinette::stockinette;
 use glam::DVec3;
 use std::path::Path;
 use toml::Table;
@@ -128,7 +129,7 @@ impl Scene {
     ///
     /// # Errors
     /// Values out of range; fabric that cannot be knitted.
-    pub fn stockinette(mut file: SceneFile, knit: &StockinetteParams) -> Result<Self, SceneError> {
+    pub fn stockinette(mut file: SceneFile, knit: &KnitParams) -> Result<Self, SceneError> {
         let name = "generated stockinette";
         let value = |(error, _): (KeyError, _)| SceneError::Value {
             scene: name.to_owned(),

@@ -55,6 +55,12 @@ pub fn lod_factor(fiber_px: f64, ply_px: f64, threshold: f64) -> f64 {
     (fiber_px / threshold) * ((ply_px - threshold) / (ply_px - fiber_px))
 }
 
+/// Share of all fibers that is kept where each is `fiber_px` pixels wide and `thin` pixels are the least allowed;
+/// above 1 none is dropped.
+pub fn share_kept(fiber_px: f64, thin: f64) -> f64 {
+    fiber_px / thin
+}
+
 /// What is drawn of a yarn whose pixels are `pixel_mm` wide at its place. `threshold` and `thin` in pixels.
 /// The number of fibers goes with the square of Eq. 4's factor, as the paper's text has it.
 pub fn detail_of(pixel_mm: f64, threshold: f64, thin: f64, widths: &DetailWidths) -> Detail {
@@ -62,7 +68,7 @@ pub fn detail_of(pixel_mm: f64, threshold: f64, thin: f64, widths: &DetailWidths
     let factor = lod_factor(fiber_px, 2.0 * widths.ply_radius_mm / pixel_mm, threshold);
     Detail {
         kept: factor * factor * widths.core_ranks,
-        share: fiber_px / thin,
+        share: share_kept(fiber_px, thin),
         level: (1.0 - factor) * f64::from(CORE_LEVELS - 1),
     }
 }

@@ -10,8 +10,9 @@ use worsted::yarn::period::CurvePeriods;
 type Twin = fn(&mut Args<'_>) -> Vec<Part>;
 
 pub fn cases() -> Vec<Case> {
-    let mut all = vec![lod_factor(), detail_of(), rank_weight(), fiber_of_slot(), thinning_weight()];
-    all.extend([width_factor(), flying_radius(), flying_range(), has_flyaway(), nth_set_bit()]);
+    let mut all = vec![lod_factor(), share_kept(), detail_of(), rank_weight(), fiber_of_slot()];
+    all.extend([thinning_weight(), width_factor()]);
+    all.extend([flying_radius(), flying_range(), has_flyaway(), nth_set_bit()]);
     all
 }
 
@@ -39,6 +40,21 @@ fn lod_factor() -> Case {
         case.rows.extend([0.999_999, 1.0, 1.000_001].map(|ply_px| reals(&[fiber_px, ply_px, 1.0])));
     }
     case.rows.push(reals(&[0.5, 5.0, 0.0]));
+    case
+}
+
+fn share_kept() -> Case {
+    let mut case = case(
+        "share_kept",
+        |random| {
+            let thin = random.magnitude(0.05, 2.0);
+            reals(&[thin * random.magnitude(1e-4, 10.0), thin])
+        },
+        |args| vec![number("share", detail::share_kept(args.real(), args.real()), FLOOR)],
+    );
+    for fiber_px in [0.0, 1e-30, 0.25, 1.0, 1e6] {
+        case.rows.push(reals(&[fiber_px, 0.25]));
+    }
     case
 }
 

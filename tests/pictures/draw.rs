@@ -7,7 +7,8 @@ use worsted::frame::{Renderer, Request};
 use worsted::io::bcc::write_bcc;
 use worsted::io::curves::{Basis, Curve, CurveSet, UpAxis};
 use worsted::io::picture::{DisplayImage, LinearImage};
-use worsted::knit::stockinette::{StockinetteParams, stockinette};
+use worsted::knit::params::KnitParams;
+use worsted::knit::stockinette::stockinette;
 use worsted::metrics::coverage::Coverage;
 use worsted::scene::Scene;
 use worsted::vulkan::DeviceChoice;
@@ -16,7 +17,7 @@ use crate::device::shared;
 
 /// A swatch of 2 courses of 3 loops.
 pub fn swatch() -> CurveSet {
-    stockinette(&StockinetteParams { courses: 2, wales: 3, ..Default::default() }).unwrap()
+    stockinette(&KnitParams { courses: 2, wales: 3, ..KnitParams::swatch() }).unwrap()
 }
 
 /// One open yarn.

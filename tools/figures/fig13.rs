@@ -5,7 +5,8 @@ use crate::stage::{COURSE_DIAMETERS, camera, preset, scene_of, shoot};
 use embedded_graphics::text::Alignment;
 use std::sync::Arc;
 use worsted::error::Error;
-use worsted::knit::tube::{TubeParams, tube};
+use worsted::knit::params::KnitParams;
+use worsted::knit::tube::{inner_radius_mm, tube};
 use worsted::scene::Scene;
 use worsted::scene::file::{CameraTable, DisplayTable, FiberTable, SceneFile};
 use worsted::vulkan::Device;
@@ -46,16 +47,16 @@ pub fn draw(device: &Arc<Device>) -> Result<(), Error> {
 }
 
 /// The same tube in every yarn's own size: all lengths are in proportion to its outer radius.
-fn knit(yarn: &str) -> Result<TubeParams, Error> {
+fn knit(yarn: &str) -> Result<KnitParams, Error> {
     let yarn_radius_mm = preset(yarn)?.outer_radius_mm();
     let course_spacing_mm = Some(COURSE_DIAMETERS * 2.0 * yarn_radius_mm);
-    Ok(TubeParams { courses: COURSES, wales: WALES, yarn_radius_mm, course_spacing_mm, ..Default::default() })
+    Ok(KnitParams { courses: COURSES, wales: WALES, yarn_radius_mm, course_spacing_mm, ..KnitParams::tube() })
 }
 
 /// Of the tube's face from its axis: about one diameter before the innermost centre lines.
 fn front_mm(yarn: &str) -> Result<f64, Error> {
     let knit = knit(yarn)?;
-    Ok(knit.inner_radius_mm() + 2.0 * knit.yarn_radius_mm)
+    Ok(inner_radius_mm(&knit) + 2.0 * knit.yarn_radius_mm)
 }
 
 /// The yarn in the fiber's default look.

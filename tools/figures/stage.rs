@@ -6,7 +6,7 @@ use worsted::error::Error;
 use worsted::frame::{Picture, Renderer, Request};
 use worsted::io::curves::{Basis, Curve, CurveSet, UpAxis};
 use worsted::io::yarn_file::Loaded;
-use worsted::knit::stockinette::StockinetteParams;
+use worsted::knit::params::KnitParams;
 use worsted::scene::file::{CameraTable, FabricTable, SceneFile};
 use worsted::scene::{Fabric, Scene};
 use worsted::vulkan::Device;
@@ -39,9 +39,9 @@ pub fn camera(size: [u32; 2], width_mm: f64, target_mm: [f64; 3]) -> CameraTable
 }
 
 /// A swatch of stockinette in a yarn of that outer radius.
-pub fn swatch(yarn_radius_mm: f64, wales: u32, courses: u32) -> StockinetteParams {
+pub fn swatch(yarn_radius_mm: f64, wales: u32, courses: u32) -> KnitParams {
     let course_spacing_mm = Some(COURSE_DIAMETERS * 2.0 * yarn_radius_mm);
-    StockinetteParams { courses, wales, yarn_radius_mm, course_spacing_mm, ..Default::default() }
+    KnitParams { courses, wales, yarn_radius_mm, course_spacing_mm, ..KnitParams::swatch() }
 }
 
 /// A scene of one fabric whose centre lines are given in mm.

@@ -12,8 +12,9 @@ use worsted::frame::{Renderer, Request};
 use worsted::io::bcc::write_bcc;
 use worsted::io::curves::CurveSet;
 use worsted::io::error::FileError;
-use worsted::knit::stockinette::{StockinetteParams, stockinette};
-use worsted::knit::tube::{TubeParams, tube};
+use worsted::knit::params::KnitParams;
+use worsted::knit::stockinette::stockinette;
+use worsted::knit::tube::tube;
 use worsted::scene::Scene;
 use worsted::scene::file::{FabricTable, SceneFile};
 use worsted::vulkan::{Device, DeviceOptions};
@@ -58,10 +59,10 @@ impl Cloth {
     fn knit(self, yarn_radius_mm: f64) -> Result<CurveSet, Error> {
         Ok(match self {
             Self::Stockinette { wales, courses } => {
-                stockinette(&StockinetteParams { wales, courses, yarn_radius_mm, ..Default::default() })?
+                stockinette(&KnitParams { wales, courses, yarn_radius_mm, ..KnitParams::swatch() })?
             }
             Self::Tube { wales, courses } => {
-                tube(&TubeParams { wales, courses, yarn_radius_mm, ..Default::default() })?
+                tube(&KnitParams { wales, courses, yarn_radius_mm, ..KnitParams::tube() })?
             }
         })
     }

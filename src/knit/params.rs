@@ -1,4 +1,4 @@
-//! How closely a cloth is knitted: spacings, yarn thickness and detail, checked alike for every pattern.
+//! What to knit: size, spacings, yarn thickness and detail, checked alike for every pattern made of one loop.
 
 use super::error::KnitError;
 use super::unit_cell::{ARC_SKIP, UnitCell, unit_cell};
@@ -18,17 +18,22 @@ const MOST_POINTS: u64 = 1 << 24;
 /// A spacing short of its limit by no more than this part of it is taken as the limit itself.
 const ROUNDING: f64 = 1e-9;
 
-/// What all patterns made of one loop have in common.
+/// What to knit, whatever the pattern.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Gauge {
-    /// The yarn's outer radius.
-    pub(crate) yarn_radius_mm: f64,
-    /// Distance between loops of a course, where given.
-    pub(crate) wale_spacing_mm: Option<f64>,
-    /// Distance between courses, where given.
-    pub(crate) course_spacing_mm: Option<f64>,
-    /// Control points of one loop.
-    pub(crate) points_per_loop: u32,
+pub struct KnitParams {
+    /// Rows, or rounds, of loops: at least 1.
+    pub courses: u32,
+    /// Loops of a course: at least 1, around a tube at least 10.
+    pub wales: u32,
+    /// The yarn's OUTER radius in millimetres, 0.001 to 1000: strands keep twice that apart.
+    pub yarn_radius_mm: f64,
+    /// Distance between loops of a course, along a tube's inside: 4.15 to 6.5 yarn diameters; 4.2 where not
+    /// given.
+    pub wale_spacing_mm: Option<f64>,
+    /// Distance between courses, 2.2 to 4.5 yarn diameters; 2.9 where not given.
+    pub course_spacing_mm: Option<f64>,
+    /// Control points of one loop: a multiple of 4 from 16 to 64.
+    pub points_per_loop: u32,
 }
 
 /// Refuses a value outside `[low, high]`, NaN included.
@@ -40,32 +45,37 @@ fn check_range(name: &'static str, value: f64, [low, high]: [f64; 2], unit: &str
     Err(KnitError::Parameter { name, expected, found: format!("{value}") })
 }
 
-/// Refuses fewer courses or wales than the given least counts.
-pub(crate) fn check_counts(counts: [u32; 2], least: [u32; 2]) -> Result<(), KnitError> {
-    for (name, (count, least)) in ["courses", "wales"].into_iter().zip(counts.into_iter().zip(least)) {
-        if count < least {
-            let expected = format!("at least {least}");
-            return Err(KnitError::Parameter { name, expected, found: count.to_string() });
-        }
-    }
-    Ok(())
-}
-
-/// Refuses a fabric of more control points than memory is meant for; `fabric` names it.
-pub(crate) fn check_size(points: u64, [courses, wales]: [u32; 2], fabric: &str) -> Result<(), KnitError> {
-    if points <= MOST_POINTS {
+/// Refuses fewer courses or wales than the least.
+fn check_count(name: &'static str, count: u32, least: u32) -> Result<(), KnitError> {
+    if count >= least {
         return Ok(());
     }
-    Err(KnitError::Parameter {
-        name: "courses and wales",
-        expected: format!("a {fabric} of at most {MOST_POINTS} control points"),
-        found: format!("{courses} courses of {wales} loops, {points} control points"),
-    })
+    Err(KnitError::Parameter { name, expected: format!("at least {least}"), found: count.to_string() })
 }
 
-impl Gauge {
-    /// Checks every value against its range.
-    pub(crate) fn validate(&self) -> Result<(), KnitError> {
+impl KnitParams {
+    /// A flat swatch: 12 courses of 10 loops in yarn of 0.75 mm outer radius, 20 points a loop (1.5 radii
+    /// apart).
+    pub const fn swatch() -> Self {
+        Self {
+            courses: 12,
+            wales: 10,
+            yarn_radius_mm: 0.75,
+            wale_spacing_mm: None,
+            course_spacing_mm: None,
+            points_per_loop: 20,
+        }
+    }
+
+    /// A tube: 16 courses of 24 loops, otherwise as [`KnitParams::swatch`].
+    pub const fn tube() -> Self {
+        Self { courses: 16, wales: 24, ..Self::swatch() }
+    }
+
+    /// Checks every value against its range; the least courses and wales are the pattern's.
+    pub(crate) fn validate(&self, [least_courses, least_wales]: [u32; 2]) -> Result<(), KnitError> {
+        check_count("courses", self.courses, least_courses)?;
+        check_count("wales", self.wales, least_wales)?;
         let [least, most] = POINTS_PER_LOOP;
         check_range("yarn_radius_mm", self.yarn_radius_mm, RADIUS_MM, "mm")?;
         if !(least..=most).contains(&self.points_per_loop) || !self.points_per_loop.is_multiple_of(4) {
@@ -77,6 +87,19 @@ impl Gauge {
         }
         self.check_spacing("wale_spacing_mm", self.wale_spacing_mm, WALE_DIAMETERS)?;
         self.check_spacing("course_spacing_mm", self.course_spacing_mm, COURSE_DIAMETERS)
+    }
+
+    /// Refuses a fabric of more control points than memory is meant for; `fabric` names it.
+    pub(crate) fn check_size(&self, points: u64, fabric: &str) -> Result<(), KnitError> {
+        if points <= MOST_POINTS {
+            return Ok(());
+        }
+        let Self { courses, wales, .. } = self;
+        Err(KnitError::Parameter {
+            name: "courses and wales",
+            expected: format!("a {fabric} of at most {MOST_POINTS} control points"),
+            found: format!("{courses} courses of {wales} loops, {points} control points"),
+        })
     }
 
     /// Refuses a spacing outside its range of yarn diameters.
@@ -108,12 +131,13 @@ impl Gauge {
     }
 
     /// Wale and course spacing in millimetres, defaults filled in.
-    pub(crate) fn spacing_mm(&self) -> [f64; 2] {
+    pub fn spacing_mm(&self) -> [f64; 2] {
         self.spacing_diameters().map(|d| d * self.diameter_mm())
     }
 
-    /// Arc length within which two places of one yarn are neighbours and not distinct strands.
-    pub(crate) fn arc_skip_mm(&self) -> f64 {
+    /// Arc length along the yarn, in millimetres, within which two places are neighbours and not
+    /// distinct strands: what [`super::clearance::min_clearance`] should skip.
+    pub fn arc_skip_mm(&self) -> f64 {
         ARC_SKIP * self.diameter_mm()
     }
 
