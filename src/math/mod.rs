@@ -8,5 +8,6 @@ pub mod frame;
 pub mod hash;
 pub mod quadrature;
 pub mod rng;
+pub mod special;
 pub mod strip;
 pub mod tone;

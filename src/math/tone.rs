@@ -17,9 +17,33 @@ pub fn tone_neutral(linear: DVec3) -> DVec3 {
     linear.max(DVec3::ZERO) * (bent / peak)
 }
 
+/// Above this the filmic curve is past 1.
+pub const FILMIC_END: f64 = 8.0;
+
+/// Narkowicz 2015's fit of ACES' reference and sRGB output transforms ("ACES Filmic Tone Mapping Curve"),
+/// component by component: contrast in the middle, highlights that fade to white. 18% grey becomes 0.267, 1.0
+/// becomes 0.804, 7.24 and more becomes 1. Negative components become 0.
+pub fn tone_filmic(linear: DVec3) -> DVec3 {
+    let x = linear.clamp(DVec3::ZERO, DVec3::splat(FILMIC_END));
+    (x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)).min(DVec3::ONE)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_filmic_curve_rises_from_0_to_1_through_its_stated_values() {
+        let curve = |x: f64| tone_filmic(DVec3::splat(x)).x;
+        for (x, y) in [(0.0, 0.0), (-3.0, 0.0), (0.18, 0.267), (1.0, 0.804), (7.25, 1.0), (1e30, 1.0)] {
+            assert!((curve(x) - y).abs() < 5e-4, "{x}: {}", curve(x));
+        }
+        assert!((1..=724).all(|i| curve(f64::from(i) * 0.01) > curve(f64::from(i - 1) * 0.01)));
+        assert!(curve(7.24) < 1.0);
+        // Bright red fades toward white; the neutral curve keeps its hue.
+        let red = DVec3::new(20.0, 2.0, 2.0);
+        assert!(tone_filmic(red).y > 0.9 && tone_neutral(red).y < 0.11);
+    }
 
     #[test]
     fn identity_below_the_knee_smooth_at_it_and_below_one_above() {

@@ -2,5 +2,7 @@
 
 pub mod core_bake;
 pub mod core_texture;
+pub mod environment;
 pub mod occlusion_fit;
 pub mod optical_depth;
+pub mod scattering_table;

@@ -1,6 +1,6 @@
 //! Arguments of the functions of periods, loops and hairs, in the order of `glsl/test/flyaway_kernel.glsl`.
 
-use crate::harness::{Args, Part, number};
+use crate::harness::{Args, Part, number, numbers};
 use crate::inputs::{Random, RowBuilder, some_yarn};
 use std::f64::consts::{PI, TAU};
 use worsted::yarn::fiber::{PieceTurns, Turns};
@@ -136,7 +136,7 @@ impl Args<'_> {
 
 /// Both halves of a word.
 pub fn halves(word: u32) -> Part {
-    Part { name: "word", values: vec![f64::from(word >> 16), f64::from(word & 0xffff)], floor: 1.0 }
+    numbers("word", vec![f64::from(word >> 16), f64::from(word & 0xffff)], 1.0)
 }
 
 pub fn truth(name: &'static str, value: bool) -> Part {

@@ -1,7 +1,7 @@
 //! Compares what the device returned with the f64 twin, row by row.
 //!
 //! Arguments are f32 numbers and the twin gets exactly these. The error of an answer is
-//! |device - f64| / max(|f64|, floor) and must stay below [`BOUND`]. One thing is allowed beyond it:
+//! |device - f64| / max(|f64|, floor) and must stay below [`BOUND`] or what [`Part::within`] says. One thing is allowed beyond it:
 //! where the function itself magnifies a rounding of its arguments, no f32 formula can be better. So
 //! the twin is also evaluated with every argument moved by one f32 step, and an answer may be off by
 //! [`STEPS`] times the sum of those changes. [`Summary::well_conditioned`] says how many answers were held to
@@ -86,16 +86,30 @@ pub struct Part {
     pub values: Vec<f64>,
     /// Below this magnitude the error is measured against it.
     pub floor: f64,
+    /// Largest error.
+    pub bound: f64,
+}
+
+impl Part {
+    /// Held to another bound than [`BOUND`].
+    pub fn within(self, bound: f64) -> Self {
+        Self { bound, ..self }
+    }
 }
 
 /// A number.
 pub fn number(name: &'static str, value: f64, floor: f64) -> Part {
-    Part { name, values: vec![value], floor }
+    numbers(name, vec![value], floor)
 }
 
 /// A vector.
 pub fn vector(name: &'static str, value: DVec3, floor: f64) -> Part {
-    Part { name, values: value.to_array().to_vec(), floor }
+    numbers(name, value.to_array().to_vec(), floor)
+}
+
+/// Several numbers whose error is measured as a whole.
+pub fn numbers(name: &'static str, values: Vec<f64>, floor: f64) -> Part {
+    Part { name, values, floor, bound: BOUND }
 }
 
 /// What must hold of the device's answer whatever the conditioning; the message says what did not.
@@ -167,11 +181,15 @@ fn compare_row(
     row: &[Word],
     found: &[f32],
     expected: &[Part],
+    excuse: Excuse,
     tally: &mut Tally,
 ) -> Result<(), String> {
     let fail = |what: String| Err(format!("{}{row:?}: {what}", case.function));
     let mut rest = found;
-    let changes = changes(case, row);
+    let changes = match excuse {
+        Excuse::Conditioning => changes(case, row),
+        Excuse::None => vec![0.0; expected.len()],
+    };
     for (index, part) in expected.iter().enumerate() {
         let (values, after) = rest.split_at(part.values.len());
         rest = after;
@@ -181,7 +199,7 @@ fn compare_row(
         let off = distance(values.iter().map(|&v| f64::from(v)), &part.values);
         let scale = length(&part.values).max(part.floor);
         let by_steps = STEPS * changes[index];
-        if by_steps <= BOUND * scale {
+        if by_steps <= part.bound * scale {
             tally.held += 1;
             tally.worst = tally.worst.max(off / scale);
         } else {
@@ -189,7 +207,7 @@ fn compare_row(
         }
         tally.all += 1;
         // Written so that a NaN fails.
-        let good = off <= (BOUND * scale).max(by_steps);
+        let good = off <= (part.bound * scale).max(by_steps);
         if !good {
             return fail(format!(
                 "{} is {values:?}, expected {:?}: error {:.2e}, {:.1} times what one step of the arguments does",
@@ -202,6 +220,13 @@ fn compare_row(
     }
     let invariant = case.invariant.map_or(Ok(()), |holds| holds(&mut Args::new(row), found));
     invariant.or_else(fail)
+}
+
+/// What an answer may be off by beyond its bound.
+#[derive(Clone, Copy)]
+enum Excuse {
+    Conditioning,
+    None,
 }
 
 #[derive(Default)]
@@ -218,11 +243,29 @@ pub fn compare(
     found: &[Vec<f32>],
     expected: impl Fn(&[Word]) -> Vec<Part>,
 ) -> Result<Summary, String> {
+    compare_rows(case, found, expected, Excuse::Conditioning)
+}
+
+/// [`compare`] with nothing allowed beyond the bounds.
+pub fn compare_strictly(
+    case: &Case,
+    found: &[Vec<f32>],
+    expected: impl Fn(&[Word]) -> Vec<Part>,
+) -> Result<Summary, String> {
+    compare_rows(case, found, expected, Excuse::None)
+}
+
+fn compare_rows(
+    case: &Case,
+    found: &[Vec<f32>],
+    expected: impl Fn(&[Word]) -> Vec<Part>,
+    excuse: Excuse,
+) -> Result<Summary, String> {
     assert_eq!(case.rows.len(), found.len(), "{}: one answer per row", case.function);
     let mut tally = Tally::default();
     let mut wrong = Vec::new();
     for (row, found) in case.rows.iter().zip(found) {
-        wrong.extend(compare_row(case, row, found, &expected(row), &mut tally).err());
+        wrong.extend(compare_row(case, row, found, &expected(row), excuse, &mut tally).err());
     }
     let summary = Summary {
         rows: case.rows.len(),

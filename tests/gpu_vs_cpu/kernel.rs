@@ -1,6 +1,7 @@
 //! Runs one of `glsl/test/functions` over rows of arguments.
 
 use crate::device::shared;
+use crate::scattering_tables;
 use bytemuck::{Pod, Zeroable};
 use worsted::shaders;
 use worsted::vulkan::{
@@ -30,6 +31,8 @@ pub fn run(function: &str, rows: &[Vec<u32>], result_words: usize) -> Result<Vec
     let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
     let inputs = Buffer::upload(device, "inputs", storage, &rows.concat())?;
     let bytes = 4 * rows.len() as u64 * result_words as u64;
+    // Only the kernels of fiber scattering read them.
+    let tables = Buffer::upload(device, "scattering tables", storage, scattering_tables::all())?;
     let results = Buffer::new(device, "results", bytes, storage, MemoryKind::Readback)?;
 
     let binding = |binding| Binding {
@@ -37,7 +40,7 @@ pub fn run(function: &str, rows: &[Vec<u32>], result_words: usize) -> Result<Vec
         kind: vk::DescriptorType::STORAGE_BUFFER,
         stages: vk::ShaderStageFlags::COMPUTE,
     };
-    let layout = DescriptorLayout::new(device, function, &[binding(0), binding(1)])?;
+    let layout = DescriptorLayout::new(device, function, &[binding(0), binding(1), binding(2)])?;
     let info = ComputePipelineInfo {
         name: function,
         spirv: shaders::get(&path(function)).expect("the completeness test names a missing kernel"),
@@ -47,7 +50,8 @@ pub fn run(function: &str, rows: &[Vec<u32>], result_words: usize) -> Result<Vec
         cache: None,
     };
     let pipeline = Pipeline::compute(device, &info)?;
-    let bound = [(0, Resource::Storage(&inputs)), (1, Resource::Storage(&results))];
+    let bound = [&inputs, &results, &tables].map(Resource::Storage);
+    let bound: Vec<_> = (0..).zip(bound).collect();
     let set = DescriptorSet::new(&layout, function, &bound)?;
     let shape =
         Shape { rows: rows.len() as u32, input_words: input_words as u32, result_words: result_words as u32 };

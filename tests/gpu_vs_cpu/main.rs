@@ -15,8 +15,13 @@ mod flyaway_rows;
 mod harness;
 mod inputs;
 mod kernel;
+mod khungurn_cases;
+mod khungurn_rows;
+mod khungurn_truth;
+mod light_cases;
 mod math_cases;
 mod rejects;
+mod scattering_tables;
 mod yarn_cases;
 
 use harness::{Case, Word, compare, twin_of};
@@ -31,6 +36,8 @@ fn cases() -> Vec<Case> {
     all.extend(core_cases::cases());
     all.extend(coverage_cases::cases());
     all.extend(bsdf_cases::cases());
+    all.extend(light_cases::cases());
+    all.extend(khungurn_cases::cases());
     all
 }
 

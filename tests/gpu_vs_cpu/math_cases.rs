@@ -1,6 +1,6 @@
 //! `glsl/lib`.
 
-use crate::harness::{Args, Case, Part, number, vector};
+use crate::harness::{Args, Case, Part, Row, number, numbers, vector};
 use crate::inputs::{RANDOM_ROWS, Random, SPECIAL_T, random_rows, row, special_pieces, special_units};
 use glam::DVec3;
 use worsted::math::curve::{self, Basis, CurvePoint};
@@ -14,7 +14,7 @@ pub fn cases() -> Vec<Case> {
     let mut all = vec![bezier_from_basis(), bezier_point(), curve_point()];
     all.extend([unit_from_octahedral(), any_perpendicular(), direction_or(), normal_perpendicular_to()]);
     all.extend([angle_of(), longitudinal_angle(), cos_half_azimuth(), strip_side(), strip_normals()]);
-    all.extend([tone_neutral(), srgb_from_linear()]);
+    all.extend([tone_neutral(), tone_filmic(), srgb_from_linear()]);
     all
 }
 
@@ -260,31 +260,44 @@ fn strip_normals() -> Case {
         rows,
         twin: |args| {
             let values = strip::strip_normals(args.real()).to_array().to_vec();
-            vec![Part { name: "normals", values, floor: 1.0 }]
+            vec![numbers("normals", values, 1.0)]
         },
         invariant: None,
     }
 }
 
-fn tone_neutral() -> Case {
-    let mut rows = random_rows("tone_neutral", |random| {
+fn tone_rows(function: &str, ends: &[f64]) -> Vec<Row> {
+    let mut rows = random_rows(function, |random| {
         let color =
             DVec3::new(random.between(-0.1, 1.0), random.between(-0.1, 1.0), random.between(-0.1, 1.0));
         row().vec3(color * random.magnitude(1e-3, 1e3)).end()
     });
     for color in [DVec3::ONE, DVec3::X, DVec3::new(1.0, 0.5, -0.25), -DVec3::ONE] {
-        rows.extend(
-            [0.0, 1e-20, 0.8, 0.799_999, 0.800_001, 1.0, 1e6, 1e30].map(|s| row().vec3(s * color).end()),
-        );
+        rows.extend([0.0, 1e-20, 1.0, 1e6, 1e30].iter().chain(ends).map(|&s| row().vec3(s * color).end()));
     }
+    rows
+}
+
+fn tone_neutral() -> Case {
     Case {
         function: "tone_neutral",
-        rows,
+        rows: tone_rows("tone_neutral", &[0.8, 0.799_999, 0.800_001]),
         twin: |args| vec![vector("shown", tone::tone_neutral(args.vec3()), FACTOR_FLOOR)],
-        invariant: Some(|_, found| {
-            found.iter().all(|c| (0.0..=1.0).contains(c)).then_some(()).ok_or("not in 0 to 1".into())
-        }),
+        invariant: Some(displayable),
     }
+}
+
+fn tone_filmic() -> Case {
+    Case {
+        function: "tone_filmic",
+        rows: tone_rows("tone_filmic", &[7.24, 7.25, 8.0, 8.001]),
+        twin: |args| vec![vector("shown", tone::tone_filmic(args.vec3()), FACTOR_FLOOR)],
+        invariant: Some(displayable),
+    }
+}
+
+fn displayable(_: &mut Args<'_>, found: &[f32]) -> Result<(), String> {
+    found.iter().all(|c| (0.0..=1.0).contains(c)).then_some(()).ok_or("not in 0 to 1".into())
 }
 
 fn srgb_from_linear() -> Case {

@@ -1,5 +1,5 @@
-//! Measures what level of detail costs and saves, and says whether its limits hold: `measure
-//! lod-error|lod-cost|dolly|turntable`. Exit codes are those of `worsted`; 1 is a limit that does not hold.
+//! Measures what level of detail and tables cost and save, and says whether their limits hold: `measure
+//! lod-error|lod-cost|dolly|turntable|tables`. Exit codes are those of `worsted`; 1 is a limit that does not hold.
 
 mod dolly;
 mod lod_cost;
@@ -9,6 +9,7 @@ mod looks;
 mod pictures;
 mod report;
 mod stage;
+mod tables;
 mod turntable;
 
 use clap::{Parser, Subcommand};
@@ -18,7 +19,7 @@ use worsted::error::Error;
 
 /// What can be typed.
 #[derive(Debug, Parser)]
-#[command(name = "measure", about = "Error and cost of level of detail and culling")]
+#[command(name = "measure", about = "Error and cost of level of detail, culling and tables")]
 struct Args {
     /// Device by name, by index, or `software` for a CPU device.
     #[arg(long, global = true, default_value = "auto", value_name = "NAME|INDEX|software")]
@@ -39,6 +40,8 @@ enum Command {
     Dolly(dolly::Options),
     /// Pictures with culling against pictures without, as pieces of yarn come and go.
     Turntable(turntable::Options),
+    /// Error of the tables of fiber scattering by their size. Needs no device.
+    Tables,
 }
 
 fn main() -> ExitCode {
@@ -52,12 +55,17 @@ fn main() -> ExitCode {
 }
 
 fn run(args: &Args) -> Result<(), Error> {
-    let stage = Stage::new(&args.device)?;
     match &args.command {
-        Command::LodError(options) => lod_error::run(&stage, options)?,
-        Command::LodCost(options) => lod_cost::run(&stage, options)?,
-        Command::Dolly(options) => dolly::run(&stage, options)?,
-        Command::Turntable(options) => turntable::run(&stage, options)?,
+        Command::LodError(options) => on_device(args, |stage| lod_error::run(stage, options)),
+        Command::LodCost(options) => on_device(args, |stage| lod_cost::run(stage, options)),
+        Command::Dolly(options) => on_device(args, |stage| dolly::run(stage, options)),
+        Command::Turntable(options) => on_device(args, |stage| turntable::run(stage, options)),
+        Command::Tables => tables::run(),
     }
+}
+
+fn on_device(args: &Args, measure: impl FnOnce(&Stage) -> Result<(), Error>) -> Result<(), Error> {
+    let stage = Stage::new(&args.device)?;
+    measure(&stage)?;
     stage.close()
 }

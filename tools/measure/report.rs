@@ -8,12 +8,17 @@ use worsted::vulkan::Device;
 /// Prints what was measured, when and on what, as the head of a Markdown section.
 pub fn print_head(title: &str, device: &Device, lines: &[String]) {
     println!("## {title}\n");
-    println!("- date: {} (UTC)", humantime::format_rfc3339_seconds(SystemTime::now()));
+    print_date();
     println!("- device: {} ({})", device.name(), device.driver());
     for line in lines {
         println!("- {line}");
     }
     println!();
+}
+
+/// Prints when this was measured, as a line of a section's head.
+pub fn print_date() {
+    println!("- date: {} (UTC)", humantime::format_rfc3339_seconds(SystemTime::now()));
 }
 
 /// Prints the head of a Markdown table.

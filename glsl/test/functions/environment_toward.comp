@@ -1,0 +1,14 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../kernel.glsl"
+#include "../../shading/environment.glsl"
+
+void run() {
+    vec4 environment[9];
+    for (int i = 0; i < 9; ++i) {
+        environment[i] = vec4(take_vec3(), 0.0);
+    }
+    vec3 direction = take_vec3();
+    float variance = take_float();
+    give(environment_toward(environment, direction, variance));
+}
