@@ -1,23 +1,26 @@
 //! The frame, top to bottom: what is built for a scene, and what one picture runs.
 
+mod bake;
 mod plan;
 pub mod sampling;
 pub mod stats;
 pub mod upload;
 
-use crate::gpu_types::Statistics;
+use crate::gpu_types::{Light, Statistics};
 use crate::graph::{Graph, Pass};
-use crate::passes::fibers::FibersPass;
+use crate::passes::fibers::{FibersPass, FrameBuffers};
 use crate::passes::resolve::ResolvePass;
 use crate::passes::targets::Targets;
 use crate::passes::tonemap::TonemapPass;
-use crate::precompute::occlusion_fit::fit_distance_occlusion;
-use crate::scene::Scene;
+use crate::precompute::environment::Environment;
 use crate::scene::camera::Camera;
 use crate::scene::features::Features;
 use crate::scene::file::CameraTable;
+use crate::scene::light::{LightTable, check_lights};
+use crate::scene::{Scene, SceneError};
 use crate::vulkan::{Buffer, Device, ImageState, MemoryKind, VulkanError, vk};
 use crate::yarn::table::fiber_table;
+use bake::Bakes;
 use sampling::Sampling;
 use stats::Stats;
 use std::collections::{BTreeMap, HashMap};
@@ -43,7 +46,8 @@ pub struct Picture {
     pub size: [u32; 2],
     /// Linear radiance, rgb; alpha is the share of samples that hit yarn.
     pub linear: Vec<[f32; 4]>,
-    /// sRGB as shown on a display, over the scene's background.
+    /// sRGB as shown on a display, over the scene's background; without one, rgb is that of the yarn alone and
+    /// alpha its coverage, not multiplied in.
     pub display: Vec<[u8; 4]>,
 }
 
@@ -53,8 +57,12 @@ pub struct Renderer {
     scene: Scene,
     request: Request,
     targets: Targets,
+    environment: Environment,
     frame: Buffer,
     statistics: Buffer,
+    lights: Buffer,
+    /// Lights that the pipelines loop over, and whether they know of point and spot lights.
+    light_room: (usize, bool),
     fibers: FibersPass,
     resolve: ResolvePass,
     tonemap: TonemapPass,
@@ -75,24 +83,24 @@ impl Renderer {
         let frame = Buffer::new(device, "frame", frame_bytes, uniform, MemoryKind::Upload)?;
         let counted = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
         let statistics = Buffer::upload(device, "statistics", counted, &[Statistics::default()])?;
+        let shining = upload::lights(&scene.file.light(), scene.origin_mm);
+        let light_room = (shining.len(), shining.iter().any(|light| light.is_local != 0));
+        let lights = upload::light_buffer(device, shining.len())?;
 
-        let mut fibers = FibersPass::new(device, frame.clone(), statistics.clone())?;
+        let buffers =
+            FrameBuffers { frame: frame.clone(), statistics: statistics.clone(), lights: lights.clone() };
+        let mut fibers = FibersPass::new(device, buffers)?;
         let mut stats = Stats::new(device, &scene, &request);
+        let started = Instant::now();
+        let environment = upload::environment(&scene);
+        if scene.environment.is_some() {
+            stats.add_precompute("environment", started.elapsed());
+        }
         for fabric in &scene.fabrics {
             let features = Features::new(&scene.file, fabric, request.statistics);
             let cross_section = fiber_table(&fabric.yarn, scene.file.seed);
-            let started = Instant::now();
-            let occlusion = features.distance_occlusion.then(|| fit_distance_occlusion(&fabric.yarn));
-            if occlusion.is_some() {
-                stats.add_precompute("distance_occlusion", started.elapsed());
-            }
-            let started = Instant::now();
-            let core = features.core_fibers.then(|| upload::core_texture(&scene, fabric, &cross_section));
-            if core.is_some() {
-                stats.add_precompute("core_texture", started.elapsed());
-            }
-            let buffers =
-                upload::fabric_buffers(device, &scene, fabric, &cross_section, occlusion, core.as_ref())?;
+            let bakes = Bakes::new(&scene, fabric, &features, &cross_section, &mut stats);
+            let buffers = upload::fabric_buffers(device, &scene, fabric, &cross_section, &bakes)?;
             fibers.add_fabric(&buffers, features, samples)?;
             stats.add_left_out(&features);
         }
@@ -105,8 +113,11 @@ impl Renderer {
             scene,
             request,
             targets,
+            environment,
             frame,
             statistics,
+            lights,
+            light_room,
             fibers,
             resolve,
             tonemap,
@@ -123,6 +134,27 @@ impl Renderer {
     /// Looks at the scene from elsewhere from now on.
     pub fn set_camera(&mut self, camera: CameraTable) {
         self.scene.file.camera = camera;
+    }
+
+    /// Lights the scene by others from now on. Those that give no light cost nothing.
+    ///
+    /// # Errors
+    /// What a scene file may not say of lights; more that shine than the scene had when the renderer was built,
+    /// or a point or spot light where it had none: its pipelines hold no code for them.
+    pub fn set_lights(&mut self, lights: Vec<LightTable>) -> Result<(), SceneError> {
+        let wrong = |message: String| SceneError::Value { scene: "lights".to_owned(), message };
+        check_lights(&lights).map_err(|error| wrong(error.to_string()))?;
+        let shining = lights.iter().filter(|light| light.shines());
+        let (count, local) = (shining.clone().count(), shining.clone().any(LightTable::is_local));
+        let (room, local_room) = self.light_room;
+        if count > room {
+            return Err(wrong(format!("expected at most {room} that shine, as at first, found {count}")));
+        }
+        if local && !local_room {
+            return Err(wrong("expected directional lights alone, as at first, found another".to_owned()));
+        }
+        self.scene.file.light = Some(lights);
+        Ok(())
     }
 
     /// The fiber pass, for kernels that read the same buffers.
@@ -150,8 +182,12 @@ impl Renderer {
         if self.request.statistics {
             self.statistics.replace(&[Statistics::default()])?;
         }
+        let mut lights = upload::lights(&self.scene.file.light(), self.scene.origin_mm);
+        // The pipelines loop over as many as there were at first; the rest are dark.
+        lights.resize(self.light_room.0, Light::default());
+        self.lights.write(0, &lights)?;
         for index in 0..frames {
-            let frame = upload::frame(&self.scene, &camera, &self.request, index);
+            let frame = upload::frame(&self.scene, &camera, &self.environment, &self.request, index);
             self.frame.write(0, &[frame])?;
             let timings = self.request.profile.then_some(&mut passes);
             taken += self.draw_frame(index, frames, timings, progress)?;

@@ -8,6 +8,9 @@ pub const FIBERS_PER_PATCH: u32 = 64;
 /// Rest length in mm after which the colours of the length view repeat; `LENGTH_STRIPE` there.
 pub const LENGTH_STRIPE: f32 = 10.0;
 
+/// Largest finite half float, above which a frame's format would hold infinity; `RADIANCE_MAX` there.
+pub const RADIANCE_MAX: f32 = 65_504.0;
+
 /// One control point of a yarn.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
@@ -140,12 +143,42 @@ pub struct Yarn {
     pub slot_stride: u32,
     /// Distance from the yarn's centre that nothing exceeds.
     pub reach: f32,
+    /// gamma_TT^-2.
+    pub k_tt: f32,
+    /// 1 / (2 pi exp(-k) I0(k)), k = `k_tt`.
+    pub n_tt: f32,
+    /// Of each lobe's table.
+    pub scattering_entries: u32,
+    /// Not used.
+    pub padding: f32,
     /// Visibility as a cubic of (distance from the centre / outer radius).
     pub occlusion: [f32; 4],
     /// k_d, rgb.
     pub diffuse: [f32; 4],
     /// k_s, rgb, and beta in radians.
     pub specular: [f32; 4],
+    /// C_R, rgb, and beta_R in radians.
+    pub reflection: [f32; 4],
+    /// C_TT, rgb, and beta_TT in radians.
+    pub transmission: [f32; 4],
+}
+
+/// One light; world space in mm, relative to the scene's origin. [`crate::scene::light::Light`] says more.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Light {
+    /// Of a point or spot light.
+    pub position: [f32; 3],
+    /// 1 for these, 0 for a directional light.
+    pub is_local: u32,
+    /// Unit: toward a directional light; against a spot's axis.
+    pub toward: [f32; 3],
+    /// Falloff from a spot's axis.
+    pub cone_scale: f32,
+    /// rgb: irradiance of a directional light, or irradiance at one metre.
+    pub strength: [f32; 3],
+    /// With `cone_scale`.
+    pub cone_offset: f32,
 }
 
 /// What one picture of the scene needs; world space in mm, relative to the scene's origin.
@@ -158,12 +191,10 @@ pub struct Frame {
     pub eye_world: [f32; 4],
     /// Inward planes: left, right, bottom, top, near.
     pub frustum_world: [[f32; 4]; 5],
-    /// xyz: unit, toward the light.
-    pub light_direction_world: [f32; 4],
-    /// rgb, on a surface facing the light.
-    pub light_irradiance: [f32; 4],
     /// rgb.
     pub ambient_radiance: [f32; 4],
+    /// rgb: [`crate::precompute::environment::Environment`].
+    pub environment: [[f32; 4]; 9],
     /// Allowed departure of a fiber's chords, in pixels.
     pub tolerance_px: f32,
     /// Distance of the near plane.

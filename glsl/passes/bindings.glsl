@@ -7,6 +7,7 @@
 
 layout(std140, set = 0, binding = 0) uniform FrameBlock { Frame frame; };
 layout(std430, set = 0, binding = 1) buffer StatisticsBlock { Statistics statistics; };
+layout(std430, set = 0, binding = 2) readonly buffer LightBlock { Light lights[]; };
 
 layout(std430, set = 1, binding = 0) readonly buffer ControlPointBlock { ControlPoint control_points[]; };
 layout(std430, set = 1, binding = 1) readonly buffer SegmentBlock { Segment segments[]; };
@@ -17,5 +18,8 @@ layout(std430, set = 1, binding = 3) readonly buffer YarnBlock { Yarn yarn; };
 layout(set = 1, binding = 4) uniform sampler2DArray core_normals; // means of sin phi, cos phi, sin 2 phi, cos 2 phi
 layout(set = 1, binding = 5) uniform sampler2DArray core_shape;   // coverage, height, slope
 layout(set = 1, binding = 6) uniform sampler2DArray core_spread;  // mean squares and product of the slope, mean square of the height
+
+// Of R and then of TT: src/precompute/scattering_table.rs.
+layout(std430, set = 1, binding = 7) readonly buffer ScatteringBlock { vec4 scattering_table[]; };
 
 #endif

@@ -1,5 +1,5 @@
 #version 460
-// Shades a fiber: Wu & Yuksel 2019's simple model under one directional light and constant ambient.
+// Shades a fiber: Wu & Yuksel 2019's simple model.
 #extension GL_GOOGLE_include_directive : require
 #include "surface.glsl"
 #include "../lib/frame.glsl"

@@ -4,8 +4,11 @@
 #define WORSTED_SURFACE
 
 #include "bindings.glsl"
+#include "../bsdf/khungurn.glsl"
 #include "../bsdf/simple.glsl"
 #include "../lib/strip.glsl"
+#include "../shading/environment.glsl"
+#include "../shading/light.glsl"
 #include "../shading/occlusion.glsl"
 #include "../shared/debug_views.glsl"
 #include "../yarn/period.glsl"
@@ -59,23 +62,79 @@ struct Strand {
 // Wu & Yuksel 2019, Fig. 4: migration dark, loops green, hairs red; core fibers blue.
 const vec3 KIND_COLORS[4] = vec3[4](vec3(0.08), vec3(0.1, 0.75, 0.15), vec3(0.85, 0.08, 0.05), vec3(0.1, 0.2, 0.6));
 
-vec3 shade(Strand strand, vec3 to_eye, float visibility) {
+vec4 scattering_entry(uint lobe, uint index) {
+    return scattering_table[lobe * yarn.scattering_entries + index];
+}
+
+Scattering yarn_scattering() {
+    return Scattering(yarn.reflection.rgb, yarn.transmission.rgb, yarn.reflection.a, yarn.transmission.a,
+                      yarn.k_tt, yarn.n_tt, yarn.scattering_entries);
+}
+
+// Radiance toward the eye per irradiance from one direction, its cosine included.
+vec3 scatter(Strand strand, vec3 to_light, vec3 to_eye) {
     vec3 sum = vec3(0.0);
-    if (LIGHT) {
-        vec3 to_light = frame.light_direction_world.xyz;
-        vec3 scattering = simple_diffuse(yarn.diffuse.rgb, strand.normals, strand.side, strand.toward, to_light);
-        if (SPECULAR) {
-            float variance = half_angle_variance(strand.spread, strand.side, strand.toward, to_light, to_eye);
-            scattering += yarn.specular.rgb
-                        * simple_specular_cos(strand.tangent, to_light, to_eye, yarn.specular.a, variance);
-        }
-        sum += scattering * frame.light_irradiance.rgb;
+    if (DIFFUSE) {
+        sum += simple_diffuse(yarn.diffuse.rgb, strand.normals, strand.side, strand.toward, to_light);
     }
-    if (AMBIENT) {
-        // Constant light from everywhere: the diffuse lobe's integral is its strength.
-        sum += yarn.diffuse.rgb * frame.ambient_radiance.rgb * visibility;
+    if (SPECULAR) {
+        float variance = half_angle_variance(strand.spread, strand.side, strand.toward, to_light, to_eye);
+        if (PHYSICAL) {
+            vec3 reflected, transmitted;
+            // Its Gaussians are of twice the half angle.
+            bcsdf_cos(strand.tangent, to_light, to_eye, 4.0 * variance, yarn_scattering(), reflected, transmitted);
+            sum += reflected + transmitted;
+        } else {
+            sum += yarn.specular.rgb
+                 * simple_specular_cos(strand.tangent, to_light, to_eye, yarn.specular.a, variance);
+        }
     }
     return sum;
+}
+
+// Radiance toward the eye of light from everywhere (Wu & Yuksel 2019, Eq. 7 and 8). Where it differs by direction
+// each lobe gathers it blurred by the lobe's own width: R from the cone that mirrors the view, TT from behind.
+vec3 ambient(Strand strand, vec3 to_eye) {
+    vec3 sum = vec3(0.0);
+    vec3 reflected_light = frame.ambient_radiance.rgb;
+    vec3 transmitted_light = reflected_light;
+    vec3 diffuse_light = reflected_light;
+    if (ENVIRONMENT) {
+        diffuse_light = environment_diffuse(frame.environment, strand.normals, strand.side, strand.toward);
+    }
+    if (DIFFUSE) {
+        // Of constant light from everywhere, the diffuse lobe's integral is its strength.
+        sum += yarn.diffuse.rgb * diffuse_light;
+    }
+    if (PHYSICAL && SPECULAR) {
+        Scattering scattering = yarn_scattering();
+        if (ENVIRONMENT) {
+            float sine = -dot(strand.tangent, to_eye);
+            float width = scattering.beta_r;
+            reflected_light = environment_cone(frame.environment, strand.tangent, sine, width * width);
+            float width_tt = scattering.beta_tt;
+            float variance = 0.5 * (width_tt * width_tt + 1.0 / scattering.k_tt);
+            transmitted_light = environment_toward(frame.environment, -to_eye, variance);
+        }
+        vec3 reflected, transmitted;
+        ambient_scattering(strand.tangent, to_eye, scattering, reflected, transmitted);
+        sum += reflected * reflected_light + transmitted * transmitted_light;
+    }
+    return sum;
+}
+
+vec3 shade(Strand strand, vec3 to_eye, float visibility) {
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < LIGHT_COUNT; ++i) {
+        Arriving arriving = LOCAL_LIGHTS ? light_at(lights[i], strand.position)
+                                         : Arriving(lights[i].toward, lights[i].strength);
+        sum += scatter(strand, arriving.to_light, to_eye) * arriving.irradiance;
+    }
+    if (AMBIENT) {
+        sum += ambient(strand, to_eye) * visibility;
+    }
+    // Close to a light there is no limit. `min` might hide what is no number.
+    return mix(sum, vec3(RADIANCE_MAX), greaterThan(sum, vec3(RADIANCE_MAX)));
 }
 
 vec3 ply_color(uint ply) {

@@ -12,6 +12,12 @@ const uint FIBERS_PER_PATCH = 64;
 // Levels of detail for which a core fiber's texture is baked.
 const uint CORE_LEVELS = 8;
 
+// Radius of point and spot lights in mm: nearer they are as bright as at it.
+const float LIGHT_RADIUS = 1.0;
+
+// Largest finite half float, above which a frame's format would hold infinity.
+const float RADIANCE_MAX = 65504.0;
+
 // Rest length in mm after which the colours of the length view repeat.
 const float LENGTH_STRIPE = 10.0;
 

@@ -8,12 +8,16 @@ layout(constant_id = 2) const bool DISTANCE_OCCLUSION = true;
 layout(constant_id = 3) const bool STATISTICS = false;
 layout(constant_id = 4) const bool SPECULAR = true;
 layout(constant_id = 5) const bool AMBIENT = true;
-layout(constant_id = 6) const bool LIGHT = true;
+layout(constant_id = 6) const uint LIGHT_COUNT = 1;     // of which anything arrives
 layout(constant_id = 7) const uint DEBUG_VIEW = 0;       // src/scene/file.rs, `DebugView`
 layout(constant_id = 8) const bool FLYAWAYS = true;      // loops or hairs exist
 layout(constant_id = 9) const bool CORE_FIBERS = true;  // core fibers stand for some of the fibers
 layout(constant_id = 10) const bool LEVEL_OF_DETAIL = true;
 layout(constant_id = 11) const uint SAMPLES = 4;        // of a pixel in one frame
 layout(constant_id = 12) const bool REGULAR_FIBERS = true; // fibers are drawn one by one
+layout(constant_id = 13) const bool LOCAL_LIGHTS = true; // point or spot lights are among them
+layout(constant_id = 14) const bool ENVIRONMENT = true; // ambient light differs by direction
+layout(constant_id = 15) const bool DIFFUSE = true;
+layout(constant_id = 16) const bool PHYSICAL = true;    // Khungurn's lobes, not Wu & Yuksel's simple one
 
 #endif

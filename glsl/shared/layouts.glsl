@@ -74,9 +74,25 @@ struct Yarn {
     float core_thickness[CORE_LEVELS]; // farthest fiber of each level, as share of the ellipse
     uint slot_stride;       // between the fibers of successive slots: glsl/yarn/detail.glsl
     float reach;            // of anything, hairs included, from the yarn's centre
+    float k_tt;             // gamma_TT^-2
+    float n_tt;             // 1 / (2 pi exp(-k) I0(k)), k = k_tt
+    uint scattering_entries; // of each lobe's table
+    float padding;
     vec4 occlusion;         // visibility as a cubic of (distance from the centre / outer_radius)
     vec4 diffuse;           // k_d, rgb
     vec4 specular;          // k_s, rgb; a: beta, radians
+    vec4 reflection;        // C_R, rgb; a: beta_R, radians
+    vec4 transmission;      // C_TT, rgb; a: beta_TT, radians
+};
+
+// One light: 48 bytes. World space: mm, relative to the scene's origin.
+struct Light {
+    vec3 position;          // of a point or spot light
+    uint is_local;          // 1 for these, 0 for a directional light
+    vec3 toward;            // unit: toward a directional light; against a spot's axis
+    float cone_scale;       // falloff from a spot's axis; 0 otherwise
+    vec3 strength;          // rgb: irradiance of a directional light, or irradiance at one metre
+    float cone_offset;      // with cone_scale; 1 otherwise
 };
 
 // What one picture of the scene needs. World space: mm, relative to the scene's origin.
@@ -84,9 +100,8 @@ struct Frame {
     mat4 clip_from_world;
     vec4 eye_world;             // xyz
     vec4 frustum_world[5];      // inward planes: left, right, bottom, top, near; n . x + w >= 0 inside
-    vec4 light_direction_world; // xyz: unit, toward the light
-    vec4 light_irradiance;      // rgb, on a surface facing the light
     vec4 ambient_radiance;      // rgb
+    vec4 environment[9];        // rgb: glsl/shading/environment.glsl
     float tolerance_px;         // allowed departure of a fiber's chords, in pixels
     float near_mm;              // distance of the near plane
     float pixel_tangent;        // width of a pixel at depth 1

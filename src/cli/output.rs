@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// What a picture file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureFormat {
-    /// 8-bit sRGB over the scene's background.
+    /// 8-bit sRGB over the scene's background, or with the yarn's coverage as straight alpha.
     Png,
     /// Linear radiance, f32, alpha = the yarn's coverage.
     Exr,

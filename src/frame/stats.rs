@@ -1,7 +1,7 @@
 //! What `--stats` reports. The keys are stable.
 
 use super::{Milliseconds, Request, ms};
-use crate::gpu_types::Statistics;
+use crate::gpu_types::{RADIANCE_MAX, Statistics};
 use crate::scene::Scene;
 use crate::scene::features::Features;
 use crate::vulkan::Device;
@@ -9,9 +9,6 @@ use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 use std::time::Duration;
-
-/// Largest finite half float: the frame's format saturates to infinity above.
-const HALF_MAX: f32 = 65_504.0;
 
 /// Spread of a measured time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -139,7 +136,7 @@ impl Stats {
     /// Counts what must not be in a picture's linear pixels.
     pub fn inspect(&mut self, pixels: &[[f32; 4]]) {
         let bad = |p: &&[f32; 4]| !p.iter().all(|c| c.is_finite());
-        let clamped = |p: &&[f32; 4]| p.iter().any(|c| !c.is_nan() && !(0.0..HALF_MAX).contains(c));
+        let clamped = |p: &&[f32; 4]| p.iter().any(|c| !c.is_nan() && !(0.0..RADIANCE_MAX).contains(c));
         self.nan_pixels = pixels.iter().filter(bad).count() as u64;
         self.clamped_pixels = pixels.iter().filter(clamped).count() as u64;
     }

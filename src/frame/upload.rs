@@ -1,14 +1,18 @@
 //! The scene in the device's words: f64 truth to GPU structs.
 
 use super::Request;
-use crate::gpu_types::{ControlPoint, Fiber, Frame, LENGTH_STRIPE, Segment, Yarn};
+use super::bake::Bakes;
+use crate::gpu_types::{ControlPoint, Fiber, Frame, LENGTH_STRIPE, Light, Segment, Yarn};
 use crate::math::frame::octahedral_from_unit;
 use crate::passes::fibers::FabricBuffers;
-use crate::precompute::core_texture::{CoreMip, CoreTexture, Moments, bake_core};
+use crate::precompute::core_texture::{CoreMip, CoreTexture, Moments};
+use crate::precompute::environment::{Environment, project_environment};
+use crate::precompute::scattering_table::azimuthal_constants;
 use crate::scene::camera::Camera;
 use crate::scene::file::QualityTable;
+use crate::scene::light::{self, LightTable};
 use crate::scene::{Fabric, Scene};
-use crate::vulkan::{Buffer, Device, Image, ImageInfo, ImageState, VulkanError, vk};
+use crate::vulkan::{Buffer, Device, Image, ImageInfo, ImageState, MemoryKind, VulkanError, vk};
 use crate::yarn::detail::slot_stride;
 use crate::yarn::fetch::period_seed;
 use crate::yarn::fiber::Turns;
@@ -69,13 +73,8 @@ pub fn fibers(cross_section: &[table::Fiber]) -> Vec<Fiber> {
 }
 
 /// What all yarns of a fabric share.
-pub fn yarn(
-    fabric: &Fabric,
-    quality: &QualityTable,
-    occlusion: Option<DVec4>,
-    core: Option<&CoreTexture>,
-    seed: u64,
-) -> Yarn {
+pub fn yarn(fabric: &Fabric, quality: &QualityTable, bakes: &Bakes, seed: u64) -> Yarn {
+    let core = bakes.core.as_ref();
     let params = &fabric.yarn;
     let flyaways = Flyaways::new(params);
     let spread = |spread: Spread| (spread.mean as f32, spread.deviation as f32);
@@ -85,9 +84,11 @@ pub fn yarn(
     let (hair_share_mean, hair_share_sd) = spread(flyaways.hair_share);
     let (hair_angle_mean, hair_angle_sd) = spread(flyaways.hair_angle);
     // Without occlusion nothing reads it; 1 everywhere is what that means.
-    let occlusion = occlusion.unwrap_or(DVec4::X);
-    let [k_r, k_g, k_b] = fabric.fiber.specular;
-    let beta = fabric.fiber.specular_width_deg.to_radians();
+    let occlusion = bakes.occlusion.unwrap_or(DVec4::X);
+    let fiber = &fabric.fiber;
+    let scattering = fiber.scattering();
+    let (k_tt, n_tt) = azimuthal_constants(&scattering);
+    let with = |rgb: DVec3, a: f64| rgb.extend(a).as_vec4().to_array();
     Yarn {
         ply_count: params.ply_count,
         fiber_count: params.fiber_count(),
@@ -128,26 +129,67 @@ pub fn yarn(
         slot_stride: slot_stride(params.fiber_count()),
         reach: flyaways.reach_mm as f32,
         occlusion: occlusion.as_vec4().to_array(),
-        diffuse: rgb(fabric.fiber.diffuse),
-        specular: DVec4::new(k_r, k_g, k_b, beta).as_vec4().to_array(),
+        k_tt: k_tt as f32,
+        n_tt: n_tt as f32,
+        scattering_entries: quality.scattering_entries,
+        padding: 0.0,
+        diffuse: rgb(fiber.diffuse()),
+        specular: with(DVec3::from_array(fiber.specular()), fiber.specular_width()),
+        reflection: with(scattering.c_r, scattering.beta_r),
+        transmission: with(scattering.c_tt, scattering.beta_tt),
     }
 }
 
-/// The camera and light of one jittered frame.
-pub fn frame(scene: &Scene, camera: &Camera, request: &Request, index: usize) -> Frame {
-    let light = scene.file.light().into_iter().next().unwrap_or_default();
+/// The lights that shine.
+pub fn lights(tables: &[LightTable], origin_mm: DVec3) -> Vec<Light> {
+    let light = |table: &LightTable| {
+        let light = light::Light::new(table, origin_mm);
+        Light {
+            position: light.position.unwrap_or_default().as_vec3().to_array(),
+            is_local: light.position.is_some().into(),
+            toward: light.toward.as_vec3().to_array(),
+            cone_scale: light.cone_scale as f32,
+            strength: light.strength.as_vec3().to_array(),
+            cone_offset: light.cone_offset as f32,
+        }
+    };
+    tables.iter().filter(|table| table.shines()).map(light).collect()
+}
+
+/// A buffer for `count` lights. Without any the shaders read none, but a descriptor must be there: one stands in.
+///
+/// # Errors
+/// Those of the device.
+pub fn light_buffer(device: &Arc<Device>, count: usize) -> Result<Buffer, VulkanError> {
+    let bytes = (size_of::<Light>() * count.max(1)) as u64;
+    Buffer::new(device, "lights", bytes, vk::BufferUsageFlags::STORAGE_BUFFER, MemoryKind::Upload)
+}
+
+/// The picture of the light from everywhere, projected; 0 without one.
+pub fn environment(scene: &Scene) -> Environment {
+    let ambient = &scene.file.ambient;
+    let project = |image| project_environment(image, ambient.environment_scale, ambient.environment_yaw_deg);
+    scene.environment.as_deref().map_or([DVec3::ZERO; 9], project)
+}
+
+/// The camera and ambient light of one jittered frame.
+pub fn frame(
+    scene: &Scene,
+    camera: &Camera,
+    environment: &Environment,
+    request: &Request,
+    index: usize,
+) -> Frame {
     let quality = &scene.file.quality;
     let size = request.size;
     let spacing_px = request.sampling.spacing_px();
     let jitter = request.sampling.jitters()[index];
-    let to_light = -DVec3::from_array(light.direction).normalize();
     Frame {
         clip_from_world: columns(camera.clip_from_world(size, jitter)),
         eye_world: camera.eye_world.extend(1.0).as_vec4().to_array(),
         frustum_world: camera.frustum_world(size).map(|plane| plane.as_vec4().to_array()),
-        light_direction_world: to_light.extend(0.0).as_vec4().to_array(),
-        light_irradiance: rgb(light.irradiance),
-        ambient_radiance: rgb(scene.file.ambient.radiance),
+        ambient_radiance: rgb(scene.file.ambient.radiance().to_array()),
+        environment: environment.map(|rgb| rgb.extend(0.0).as_vec4().to_array()),
         tolerance_px: quality.subdivision_tolerance_px as f32,
         near_mm: camera.near_mm as f32,
         pixel_tangent: camera.pixel_tangent(size) as f32,
@@ -167,12 +209,6 @@ fn columns(m: DMat4) -> [[f32; 4]; 4] {
     m.as_mat4().to_cols_array_2d()
 }
 
-/// Bakes the core texture of a fabric's yarn, whose fibers are `cross_section`.
-pub fn core_texture(scene: &Scene, fabric: &Fabric, cross_section: &[table::Fiber]) -> CoreTexture {
-    let quality = &scene.file.quality;
-    bake_core(&fabric.yarn, cross_section, quality.core_texture_rows, quality.core_visible_share)
-}
-
 /// Uploads a fabric whose fibers are `cross_section`, once. Without a core the shaders never read its texture,
 /// but a descriptor must be there: one texel stands in.
 ///
@@ -183,18 +219,21 @@ pub fn fabric_buffers(
     scene: &Scene,
     fabric: &Fabric,
     cross_section: &[table::Fiber],
-    occlusion: Option<DVec4>,
-    core: Option<&CoreTexture>,
+    bakes: &Bakes,
 ) -> Result<FabricBuffers, VulkanError> {
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
     let points = control_points(fabric, scene.origin_mm);
-    let yarn = yarn(fabric, &scene.file.quality, occlusion, core, scene.file.seed);
+    let yarn = yarn(fabric, &scene.file.quality, bakes, scene.file.seed);
+    // Without the physical model the shaders never read its table, but a descriptor must be there.
+    let none = vec![[0.0; 4]];
+    let scattering = bakes.scattering.as_ref().map_or(&none, |table| &table.values);
     Ok(FabricBuffers {
         control_points: Buffer::upload(device, "control points", usage, &points)?,
         segments: Buffer::upload(device, "yarn segments", usage, &segments(fabric))?,
         fibers: Buffer::upload(device, "fibers", usage, &fibers(cross_section))?,
         yarn: Buffer::upload(device, "yarn parameters", usage, &[yarn])?,
-        core: core_images(device, core)?,
+        core: core_images(device, bakes.core.as_ref())?,
+        scattering: Buffer::upload(device, "scattering table", usage, scattering)?,
     })
 }
 

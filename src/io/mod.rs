@@ -2,6 +2,7 @@
 
 pub mod bcc;
 pub mod curves;
+pub mod environment;
 pub mod error;
 pub mod obj;
 pub mod picture;

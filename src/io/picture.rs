@@ -193,6 +193,15 @@ pub fn read_exr(path: &Path) -> Result<LinearImage, FileError> {
     Ok(image)
 }
 
+/// Reads a Radiance picture (RGBE) as it stands; alpha is 1.
+pub fn read_hdr(path: &Path) -> Result<LinearImage, FileError> {
+    let decoded = decode(path, &read_whole(path)?, ImageFormat::Hdr)?.into_rgba32f();
+    let (width, height) = decoded.dimensions();
+    let image = LinearImage { width, height, pixels: decoded.into_raw().as_chunks().0.to_vec() };
+    image.check_shape().map_err(|e| refused(path, "read", &e))?;
+    Ok(image)
+}
+
 /// A decoder's complaint as one line.
 fn refused(path: &Path, doing: &str, error: &dyn std::fmt::Display) -> FileError {
     let message = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");

@@ -30,6 +30,18 @@ pub struct FabricBuffers {
     pub yarn: Buffer,
     /// The core texture: normals, shape and spread.
     pub core: [Image; 3],
+    /// The physical model's tables, R and then TT: four floats an entry.
+    pub scattering: Buffer,
+}
+
+/// What all shaders read of one frame, in the order of set 0's bindings.
+pub struct FrameBuffers {
+    /// One [`crate::gpu_types::Frame`], uniform.
+    pub frame: Buffer,
+    /// One [`crate::gpu_types::Statistics`], counted into.
+    pub statistics: Buffer,
+    /// [`crate::gpu_types::Light`]s, at least one.
+    pub lights: Buffer,
 }
 
 /// One pipeline's draws of one fabric.
@@ -46,8 +58,7 @@ pub struct FibersPass {
     device: Arc<Device>,
     frame_layout: DescriptorLayout,
     fabric_layout: DescriptorLayout,
-    frame: Buffer,
-    statistics: Buffer,
+    frame: FrameBuffers,
     frame_set: DescriptorSet,
     core_sampler: Sampler,
     pipelines: HashMap<(Features, Strands), Pipeline>,
@@ -56,19 +67,24 @@ pub struct FibersPass {
 }
 
 impl FibersPass {
-    /// Builds the pass around one frame's uniform buffer and the statistics it counts into.
+    /// Builds the pass around one frame's buffers.
     ///
     /// # Errors
     /// Those of the device.
-    pub fn new(device: &Arc<Device>, frame: Buffer, statistics: Buffer) -> Result<Self, VulkanError> {
+    pub fn new(device: &Arc<Device>, frame: FrameBuffers) -> Result<Self, VulkanError> {
         let binding = |binding, kind| Binding { binding, kind, stages: STAGES };
         let storage = vk::DescriptorType::STORAGE_BUFFER;
-        let frame_bindings = [binding(0, vk::DescriptorType::UNIFORM_BUFFER), binding(1, storage)];
+        let uniform = vk::DescriptorType::UNIFORM_BUFFER;
+        let frame_bindings = [binding(0, uniform), binding(1, storage), binding(2, storage)];
         let frame_layout = DescriptorLayout::new(device, "frame", &frame_bindings)?;
-        let kind_of = |i| if i < 4 { storage } else { vk::DescriptorType::COMBINED_IMAGE_SAMPLER };
-        let fabric_bindings: [_; 7] = std::array::from_fn(|i| binding(i as u32, kind_of(i)));
+        let kind_of = |i| if i < 4 || i == 7 { storage } else { vk::DescriptorType::COMBINED_IMAGE_SAMPLER };
+        let fabric_bindings: [_; 8] = std::array::from_fn(|i| binding(i as u32, kind_of(i)));
         let fabric_layout = DescriptorLayout::new(device, "fabric", &fabric_bindings)?;
-        let resources = [(0, Resource::Uniform(&frame)), (1, Resource::Storage(&statistics))];
+        let resources = [
+            (0, Resource::Uniform(&frame.frame)),
+            (1, Resource::Storage(&frame.statistics)),
+            (2, Resource::Storage(&frame.lights)),
+        ];
         // Along the core the texture tiles.
         let [repeat, clamp] = [vk::SamplerAddressMode::REPEAT, vk::SamplerAddressMode::CLAMP_TO_EDGE];
         let sampling = SamplerInfo { address: [repeat, clamp, clamp], ..Default::default() };
@@ -78,7 +94,6 @@ impl FibersPass {
             frame_layout,
             fabric_layout,
             frame,
-            statistics,
             frame_set,
             core_sampler: Sampler::new(device, "core", &sampling)?,
             pipelines: HashMap::new(),
@@ -116,6 +131,7 @@ impl FibersPass {
             (4, sampled(0)),
             (5, sampled(1)),
             (6, sampled(2)),
+            (7, Resource::Storage(&buffers.scattering)),
         ];
         let set = DescriptorSet::new(&self.fabric_layout, "fabric", &resources)?;
         let fabric = self.fabrics.len();
@@ -167,8 +183,9 @@ impl FibersPass {
         let mut uses = vec![
             begun(color, ImageState::COLOR_TARGET),
             begun(&targets.depth, ImageState::DEPTH_TARGET),
-            Use::Buffer(&self.frame, Access::GRAPHICS_READ),
-            Use::Buffer(&self.statistics, COUNTING),
+            Use::Buffer(&self.frame.frame, Access::GRAPHICS_READ),
+            Use::Buffer(&self.frame.lights, Access::GRAPHICS_READ),
+            Use::Buffer(&self.frame.statistics, COUNTING),
         ];
         let resolved = targets.multisampled.as_ref().filter(|_| last).map(|_| &targets.frame);
         if let Some(frame) = resolved {

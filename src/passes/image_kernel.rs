@@ -18,7 +18,7 @@ pub struct ImageKernel {
 }
 
 impl ImageKernel {
-    /// Builds the kernel `shader` (a path under `glsl/`) over two images of one size.
+    /// Builds the kernel `shader` (a path under `glsl/`), specialised by `constants`, over two images of one size.
     ///
     /// # Errors
     /// Those of the device.
@@ -26,6 +26,7 @@ impl ImageKernel {
         device: &Arc<Device>,
         name: &str,
         shader: &str,
+        constants: &SpecializationConstants,
         images: [&Image; 2],
         push_constant_bytes: usize,
     ) -> Result<Self, VulkanError> {
@@ -38,7 +39,7 @@ impl ImageKernel {
         let info = ComputePipelineInfo {
             name,
             spirv: spirv(shader)?,
-            constants: &SpecializationConstants::new(),
+            constants,
             set_layouts: &[&layout],
             push_constant_bytes: push_constant_bytes as u32,
             cache: None,

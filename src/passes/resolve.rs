@@ -3,7 +3,7 @@
 use super::image_kernel::ImageKernel;
 use super::targets::Targets;
 use crate::graph::{Pass, Use};
-use crate::vulkan::{Device, ImageState, VulkanError};
+use crate::vulkan::{Device, ImageState, SpecializationConstants, VulkanError};
 use bytemuck::{Pod, Zeroable};
 use std::sync::Arc;
 
@@ -27,8 +27,8 @@ impl ResolvePass {
     /// Those of the device.
     pub fn new(device: &Arc<Device>, targets: &Targets) -> Result<Self, VulkanError> {
         let images = [&targets.frame, &targets.picture];
-        let kernel =
-            ImageKernel::new(device, "resolve", "passes/resolve.comp", images, size_of::<Constants>())?;
+        let (shader, none) = ("passes/resolve.comp", SpecializationConstants::new());
+        let kernel = ImageKernel::new(device, "resolve", shader, &none, images, size_of::<Constants>())?;
         Ok(Self { kernel })
     }
 

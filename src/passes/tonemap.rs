@@ -4,7 +4,7 @@ use super::image_kernel::ImageKernel;
 use super::targets::Targets;
 use crate::graph::{Pass, Use};
 use crate::scene::file::DisplayTable;
-use crate::vulkan::{Device, ImageState, VulkanError};
+use crate::vulkan::{Device, ImageState, SpecializationConstants, VulkanError};
 use bytemuck::{Pod, Zeroable};
 use std::sync::Arc;
 
@@ -29,8 +29,9 @@ impl TonemapPass {
     /// Those of the device.
     pub fn new(device: &Arc<Device>, targets: &Targets, display: &DisplayTable) -> Result<Self, VulkanError> {
         let images = [&targets.picture, &targets.display];
-        let kernel =
-            ImageKernel::new(device, "tonemap", "passes/tonemap.comp", images, size_of::<Constants>())?;
+        let shader = "passes/tonemap.comp";
+        let special = SpecializationConstants::new().u32(0, display.tone as u32).bool(1, display.transparent);
+        let kernel = ImageKernel::new(device, "tonemap", shader, &special, images, size_of::<Constants>())?;
         let constants = Constants {
             background: display.background.map(|c| c as f32),
             exposure_scale: display.exposure_stops.exp2() as f32,

@@ -1,8 +1,12 @@
 //! A piece of cloth made ready: file units and axes to mm with Y up, yarn parameters resolved.
 
 use super::SceneError;
-use super::file::{FabricTable, FiberTable, SceneFile};
+use super::fiber_table::resolve_fiber;
+use super::file::{FabricTable, SceneFile};
 use super::yarn_table::resolve_yarn;
+use crate::bsdf::params::FiberParams;
+#[cfg(test)]
+use crate::bsdf::presets as fiber_presets;
 use crate::io::curves::UpAxis;
 use crate::io::repair::summarize_repairs;
 use crate::io::yarn_file::{Loaded, load_yarn_file};
@@ -23,7 +27,7 @@ pub struct Fabric {
     /// Its yarn.
     pub yarn: YarnParams,
     /// Its fibers' look.
-    pub fiber: FiberTable,
+    pub fiber: FiberParams,
     /// Its centre lines in mm, world axes.
     pub strands: Strands,
     /// Millimetres per unit of the file.
@@ -64,7 +68,7 @@ impl Fabric {
         let value = |message: String| SceneError::Value { scene: scene.to_owned(), message };
         let (preset, yarn) =
             resolve_yarn(&file.yarn, &table.yarn).map_err(|error| value(error.to_string()))?;
-        let fiber = table.fiber.clone().unwrap_or_else(|| file.fiber.clone());
+        let fiber = resolve_fiber(&file.fiber, &table.fiber).map_err(|error| value(error.to_string()))?;
 
         let mut notes = loaded.notes.clone();
         notes.extend(summarize_repairs(&loaded.repairs));
@@ -92,7 +96,7 @@ impl Fabric {
         let points = (0..4).map(|i| DVec3::X * f64::from(i)).collect();
         let strands =
             strands(&[Curve { points, closed: false }], crate::math::curve::Basis::CatmullRom, &yarn, 0);
-        let fiber = FiberTable::default();
+        let fiber = fiber_presets::fiber(fiber_presets::DEFAULT_FIBER).unwrap();
         Self { name: "test".into(), yarn, fiber, strands, mm_per_unit: 1.0, notes: Vec::new() }
     }
 }

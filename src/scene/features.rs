@@ -1,7 +1,7 @@
 //! Scene to features: the only place that leaves things out.
 
 use super::Fabric;
-use super::file::{DebugView, FibersShown, OcclusionMode, SceneFile};
+use super::file::{DebugView, FibersShown, OcclusionMode, SceneFile, ShadingModel};
 use crate::math::curve::Basis;
 use crate::yarn::flyaway::Flyaways;
 use std::collections::BTreeMap;
@@ -18,12 +18,20 @@ pub struct Features {
     pub distance_occlusion: bool,
     /// The control stage counts what it draws.
     pub statistics: bool,
-    /// The specular lobe exists.
+    /// Highlights exist.
     pub specular: bool,
+    /// Diffuse reflection exists.
+    pub diffuse: bool,
+    /// Highlights are those of the physical model.
+    pub physical: bool,
     /// Ambient light exists.
     pub ambient: bool,
-    /// A light exists.
-    pub light: bool,
+    /// Lights of which anything arrives.
+    pub light_count: u32,
+    /// Some of them are at a place: point or spot lights.
+    pub local_lights: bool,
+    /// Ambient light differs by direction.
+    pub environment: bool,
     /// What fibers are coloured by.
     pub debug_view: DebugView,
     /// Loops or hairs exist.
@@ -49,13 +57,17 @@ pub enum SpecializationId {
     Statistics = 3,
     Specular = 4,
     Ambient = 5,
-    Light = 6,
+    LightCount = 6,
     DebugView = 7,
     Flyaways = 8,
     CoreFibers = 9,
     LevelOfDetail = 10,
     Samples = 11,
     RegularFibers = 12,
+    LocalLights = 13,
+    Environment = 14,
+    Diffuse = 15,
+    Physical = 16,
 }
 
 impl Features {
@@ -64,17 +76,36 @@ impl Features {
         let shaded = file.debug.view == DebugView::Shaded;
         let shown = file.debug.fibers;
         let some = |rgb: [f64; 3]| rgb.iter().any(|&c| c > 0.0);
-        let ambient = shaded && some(file.ambient.radiance);
-        let light = shaded && file.light().iter().any(|light| some(light.irradiance));
+        let shading = &file.shading;
+        let physical = shading.model == ShadingModel::Physical;
+        let lights = file.light().into_iter().filter(|light| shaded && light.shines());
+        let (light_count, local_lights) =
+            lights.fold((0, false), |(count, local), light| (count + 1, local || light.is_local()));
+        let fiber = &fabric.fiber;
+        // Of uniform light only the physical lobes have an integral; those of a black fiber gleam as well, at
+        // grazing angles.
+        let lobes = shading.specular && physical;
+        let diffuse = shading.diffuse && some(fiber.diffuse());
+        let from_everywhere = shaded && shading.ambient && (lobes || diffuse);
+        let environment = from_everywhere && file.ambient.picture().is_some();
+        let ambient = environment || from_everywhere && some(file.ambient.radiance().to_array());
+        let lit = light_count > 0;
+        let specular =
+            lobes && (lit || ambient) || lit && shading.specular && !physical && some(fiber.specular());
+        let diffuse = diffuse && (lit || ambient);
         Self {
             basis: fabric.strands.basis,
             culling: file.quality.culling,
             distance_occlusion: file.occlusion.mode == OcclusionMode::Distance
                 && (ambient || file.debug.view == DebugView::Occlusion),
             statistics,
-            specular: light && some(fabric.fiber.specular),
+            specular,
+            diffuse,
+            physical: physical && specular,
             ambient,
-            light,
+            light_count,
+            local_lights,
+            environment,
             debug_view: file.debug.view,
             flyaways: Flyaways::new(&fabric.yarn).exist(),
             core_fibers: shown != FibersShown::Every,
@@ -86,7 +117,7 @@ impl Features {
 
     /// Identifier and value of every specialization constant, booleans as 0 and 1, for frames of `samples`
     /// samples a pixel.
-    pub fn specialization(&self, samples: u32) -> [(SpecializationId, u32); 13] {
+    pub fn specialization(&self, samples: u32) -> [(SpecializationId, u32); 17] {
         use SpecializationId as Id;
         [
             (Id::Basis, self.basis as u32),
@@ -95,13 +126,17 @@ impl Features {
             (Id::Statistics, self.statistics.into()),
             (Id::Specular, self.specular.into()),
             (Id::Ambient, self.ambient.into()),
-            (Id::Light, self.light.into()),
+            (Id::LightCount, self.light_count),
             (Id::DebugView, self.debug_view as u32),
             (Id::Flyaways, self.flyaways.into()),
             (Id::CoreFibers, self.core_fibers.into()),
             (Id::LevelOfDetail, self.level_of_detail.into()),
             (Id::Samples, samples),
             (Id::RegularFibers, self.regular_fibers.into()),
+            (Id::LocalLights, self.local_lights.into()),
+            (Id::Environment, self.environment.into()),
+            (Id::Diffuse, self.diffuse.into()),
+            (Id::Physical, self.physical.into()),
         ]
     }
 
@@ -115,9 +150,22 @@ impl Features {
         };
         let shaded = self.debug_view == DebugView::Shaded;
         leave(!shaded, "shading", "a debug view colours the fibers");
-        leave(shaded && !self.light, "light", "no light with irradiance above 0");
-        leave(shaded && self.light && !self.specular, "specular", "fiber.specular is 0");
-        leave(shaded && !self.ambient, "ambient", "ambient.radiance is 0");
+        let light = self.light_count > 0;
+        leave(shaded && !light, "light", "no light with irradiance or intensity above 0");
+        leave(shaded && light && !self.local_lights, "local_lights", "no point or spot light");
+        leave(shaded && self.ambient && !self.environment, "environment", "no ambient.environment");
+        leave(
+            shaded && light && !self.specular,
+            "specular",
+            "fiber.specular is 0, or shading.specular false",
+        );
+        leave(shaded && !self.diffuse, "diffuse", "fiber.diffuse is 0, or shading.diffuse false");
+        leave(shaded && self.specular && !self.physical, "scattering_tables", "shading.model is simple");
+        leave(
+            shaded && !self.ambient,
+            "ambient",
+            "ambient.radiance or environment_scale is 0, or shading.ambient false",
+        );
         leave(
             shaded && !self.distance_occlusion,
             "occlusion",
@@ -149,9 +197,9 @@ mod tests {
     }
 
     #[test]
-    fn a_default_scene_leaves_out_only_statistics() {
+    fn a_default_scene_leaves_out_only_what_it_lacks() {
         let out = features(|_, _| {}).left_out();
-        assert_eq!(out.keys().copied().collect::<Vec<_>>(), ["statistics"]);
+        assert_eq!(out.keys().copied().collect::<Vec<_>>(), ["environment", "local_lights", "statistics"]);
     }
 
     #[test]
@@ -165,13 +213,46 @@ mod tests {
 
     #[test]
     fn what_a_scene_lacks_is_left_out_with_its_reason() {
-        let no_ambient = features(|file, _| file.ambient.radiance = [0.0; 3]);
+        let no_ambient = features(|file, _| file.ambient.radiance = Some([0.0; 3]));
         assert!(!no_ambient.ambient && !no_ambient.distance_occlusion);
         assert_eq!(no_ambient.left_out()["occlusion"], "no ambient light to dim");
         let no_light = features(|file, _| file.light = Some(Vec::new()));
-        assert!(!no_light.light && !no_light.specular && no_light.ambient);
-        let matte = features(|_, fabric| fabric.fiber.specular = [0.0; 3]);
-        assert!(!matte.specular && matte.light);
+        assert!(
+            no_light.light_count == 0 && no_light.specular && no_light.ambient,
+            "lobes gather ambient light"
+        );
+        let dark = features(|file, _| {
+            file.light = Some(Vec::new());
+            file.ambient.radiance = Some([0.0; 3]);
+        });
+        assert!(!dark.specular && !dark.diffuse && !dark.physical);
+        let lit = |lights: &str| {
+            features(|file, _| file.light = toml::from_str::<SceneFile>(lights).unwrap().light)
+        };
+        let point = "kind = 'point', position_mm = [0, 0, 9]";
+        let two = lit(&format!("light = [{{}}, {{{point}, intensity = [0, 0, 0]}}, {{}}]"));
+        assert!(two.light_count == 2 && !two.local_lights && two.left_out().contains_key("local_lights"));
+        let local = lit(&format!("light = [{{irradiance = [0, 0, 0]}}, {{{point}}}]"));
+        assert!(local.light_count == 1 && local.local_lights);
+        let sky = features(|file, _| file.ambient.environment = Some("sky.exr".into()));
+        assert!(sky.environment && sky.ambient && sky.distance_occlusion);
+        let matte = features(|file, fabric| {
+            file.shading.model = ShadingModel::Simple;
+            fabric.fiber.specular = Some([0.0; 3]);
+        });
+        assert!(!matte.specular && !matte.physical && matte.light_count == 1);
+        let simple = features(|file, _| file.shading.model = ShadingModel::Simple);
+        assert!(simple.specular && simple.left_out().contains_key("scattering_tables"));
+        let glossy = features(|file, _| file.shading.diffuse = false);
+        assert!(!glossy.diffuse && glossy.physical && glossy.ambient);
+        let diffuse = features(|file, _| file.shading.specular = false);
+        assert!(diffuse.diffuse && !diffuse.specular && !diffuse.physical && diffuse.ambient);
+        let only_simple = features(|file, _| {
+            file.shading.model = ShadingModel::Simple;
+            file.shading.diffuse = false;
+        });
+        assert!(only_simple.specular && !only_simple.ambient, "the simple lobe has no integral");
+        assert!(!features(|file, _| file.shading.ambient = false).ambient);
         let every = features(|file, _| file.debug.fibers = FibersShown::Every);
         assert!(!every.core_fibers && !every.level_of_detail && every.regular_fibers);
         assert!(every.left_out().contains_key("core_fibers"));
@@ -180,6 +261,6 @@ mod tests {
         let whole = features(|file, _| file.quality.level_of_detail = false);
         assert!(!whole.level_of_detail && whole.core_fibers);
         let view = features(|file, _| file.debug.view = DebugView::Normal);
-        assert!(!view.light && !view.ambient && view.left_out().contains_key("shading"));
+        assert!(view.light_count == 0 && !view.ambient && view.left_out().contains_key("shading"));
     }
 }

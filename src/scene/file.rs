@@ -1,5 +1,7 @@
 //! The scene file's keys and their defaults. Every key has one, so a bare yarn file is a scene.
 
+use super::light::{AmbientTable, LightTable};
+use crate::bsdf::khungurn::tabulated::DEFAULT_ENTRIES;
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor, value};
 use serde::{Deserialize, Serialize};
 
@@ -15,8 +17,8 @@ pub struct SceneFile {
     /// Yarn parameters of every fabric that does not override them: `preset` and any of
     /// [`crate::yarn::params::YarnParams`].
     pub yarn: toml::Table,
-    /// The look of fibers, likewise.
-    pub fiber: FiberTable,
+    /// The look of fibers, likewise: `preset` and any of [`crate::bsdf::params::FiberParams`].
+    pub fiber: toml::Table,
     /// Lights; one directional light when the key is absent.
     pub light: Option<Vec<LightTable>>,
     /// Light from everywhere.
@@ -45,67 +47,8 @@ pub struct FabricTable {
     pub mm_per_unit: Option<f64>,
     /// Yarn parameters that differ from the scene's.
     pub yarn: toml::Table,
-    /// Fiber look that differs from the scene's.
-    pub fiber: Option<FiberTable>,
-}
-
-/// The look of a fiber under the simple shading model.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct FiberTable {
-    /// k_d: diffuse albedo, linear RGB in [0, 1].
-    pub diffuse: [f64; 3],
-    /// k_s: specular strength, linear RGB, at least 0.
-    pub specular: [f64; 3],
-    /// beta: longitudinal width of the specular lobe in degrees, 0.5 to 90.
-    pub specular_width_deg: f64,
-}
-
-impl Default for FiberTable {
-    fn default() -> Self {
-        Self { diffuse: [0.56, 0.50, 0.40], specular: [0.025, 0.025, 0.023], specular_width_deg: 12.0 }
-    }
-}
-
-/// One light.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct LightTable {
-    /// What kind of light.
-    pub kind: LightKind,
-    /// From the light to the scene; any length but 0.
-    pub direction: [f64; 3],
-    /// On a surface that faces the light, linear RGB.
-    pub irradiance: [f64; 3],
-}
-
-impl Default for LightTable {
-    fn default() -> Self {
-        Self { kind: LightKind::Directional, direction: [0.6, -0.7, -0.4], irradiance: [3.6, 3.5, 3.3] }
-    }
-}
-
-/// Kinds of light.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum LightKind {
-    /// Parallel light from infinitely far.
-    #[default]
-    Directional,
-}
-
-/// Light from everywhere.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct AmbientTable {
-    /// Linear RGB.
-    pub radiance: [f64; 3],
-}
-
-impl Default for AmbientTable {
-    fn default() -> Self {
-        Self { radiance: [0.2, 0.22, 0.26] }
-    }
+    /// Parameters of the fibers' look that differ from the scene's.
+    pub fiber: toml::Table,
 }
 
 /// Where the picture is taken from. At angles 0 the camera looks along -Z.
@@ -140,19 +83,33 @@ impl Default for CameraTable {
 }
 
 /// How fibers are shaded.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ShadingTable {
     /// The scattering model.
     pub model: ShadingModel,
+    /// Highlights: the simple model's lobe, or what the physical model reflects and transmits.
+    pub specular: bool,
+    /// Diffuse reflection.
+    pub diffuse: bool,
+    /// Light from everywhere.
+    pub ambient: bool,
+}
+
+impl Default for ShadingTable {
+    fn default() -> Self {
+        Self { model: ShadingModel::default(), specular: true, diffuse: true, ambient: true }
+    }
 }
 
 /// Scattering models.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ShadingModel {
-    /// Wu & Yuksel 2019, Eq. 5.
+    /// Reflection and transmission by Khungurn et al. 2017, and a diffuse lobe (Wu & Yuksel 2019, Sec. 4.3).
     #[default]
+    Physical,
+    /// Wu & Yuksel 2019, Eq. 5.
     Simple,
 }
 
@@ -195,6 +152,8 @@ pub struct QualityTable {
     pub core_visible_share: f64,
     /// Texels across a core fiber's texture, 8 to 512.
     pub core_texture_rows: u32,
+    /// Entries of the tables of each of the physical model's lobes, 4 to 1024.
+    pub scattering_entries: u32,
     /// How far the straight pieces of a fiber may depart from its curve, in pixels, 0.001 to 100.
     pub subdivision_tolerance_px: f64,
     /// Most pieces a fiber is cut into over one piece of yarn, 1 to 64.
@@ -214,6 +173,7 @@ impl Default for QualityTable {
             thin_fiber_samples: 1.0,
             core_visible_share: 0.02,
             core_texture_rows: 64,
+            scattering_entries: DEFAULT_ENTRIES,
             subdivision_tolerance_px: 0.2,
             max_subdivisions: 32,
             patches_per_draw: None,
@@ -230,12 +190,32 @@ pub struct DisplayTable {
     pub exposure_stops: f64,
     /// Radiance behind the cloth, linear RGB; not in the EXR, whose alpha is the yarn's coverage.
     pub background: [f64; 3],
+    /// The tone curve.
+    pub tone: ToneCurve,
+    /// The yarn alone, without background: the PNG's alpha is its coverage.
+    pub transparent: bool,
 }
 
 impl Default for DisplayTable {
     fn default() -> Self {
-        Self { exposure_stops: 0.0, background: [0.055, 0.06, 0.07] }
+        Self {
+            exposure_stops: 0.0,
+            background: [0.055, 0.06, 0.07],
+            tone: ToneCurve::Neutral,
+            transparent: false,
+        }
     }
+}
+
+/// Tone curves. The numbers are those of `glsl/passes/tonemap.comp`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ToneCurve {
+    /// Identity up to 0.8: [`crate::math::tone::tone_neutral`].
+    #[default]
+    Neutral = 0,
+    /// More contrast, highlights that fade to white: [`crate::math::tone::tone_filmic`].
+    Filmic = 1,
 }
 
 /// Views that show something else than light.

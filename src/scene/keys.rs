@@ -28,6 +28,17 @@ impl KeyError {
         Err(Self::new(path, format!(" = {value}: allowed is {low} to {high}")))
     }
 
+    /// The same for linear RGB of 0 to `most` each.
+    ///
+    /// # Errors
+    /// Values outside, NaN among them.
+    pub fn rgb(path: &str, rgb: [f64; 3], most: f64) -> Result<(), Self> {
+        if rgb.iter().all(|c| (0.0..=most).contains(c)) {
+            return Ok(());
+        }
+        Err(Self::new(path, format!(" = {rgb:?}: allowed is 0 to {most} each")))
+    }
+
     /// An error about the key at `path`.
     pub fn new(path: &str, message: String) -> Self {
         Self { path: path.to_owned(), message }
@@ -103,6 +114,11 @@ fn nearest_quoted(message: &str) -> Option<String> {
     let mut quoted = message.split('`').skip(1).step_by(2);
     let given = quoted.next()?;
     nearest(given, quoted).map(str::to_owned)
+}
+
+/// What follows an unknown name: the one that was probably meant, if any.
+pub fn suggestion(near: Option<&str>) -> String {
+    near.map_or(String::new(), |near| format!("; did you mean `{near}`?"))
 }
 
 /// The known name that `given` was probably meant to be: one that holds it, or one spelled nearly so.

@@ -1,58 +1,34 @@
 //! From a path to a scene.
 
-use super::file::{FabricTable, LightTable, SceneFile};
+use super::fiber_table::check_fibers;
+use super::file::{FabricTable, SceneFile};
 use super::keys::{KeyError, line_at};
+use super::light::{AmbientTable, check_lights};
 use super::yarn_table::check_yarns;
 use super::{Fabric, Scene, SceneError, overrides};
+use crate::io::environment::read_environment;
 use crate::io::error::{FileError, Place};
+use crate::io::picture::LinearImage;
 use crate::io::yarn_file::Loaded;
 use crate::knit::params::KnitParams;
 use crate::knit::stockinette::stockinette;
 use glam::DVec3;
 use std::path::Path;
+use std::sync::Arc;
 use toml::Table;
 
 /// Largest scene file read.
 const MAX_SCENE_BYTES: u64 = 1 << 20;
 
 impl SceneFile {
-    /// The scene's lights: its own, or the default one when the key is absent.
-    pub fn light(&self) -> Vec<LightTable> {
-        self.light.clone().unwrap_or_else(|| vec![LightTable::default()])
-    }
-
     /// Checks what the types cannot, but for yarn tables.
     fn validate(&self) -> Result<(), KeyError> {
-        let lights = self.light();
-        if lights.len() > 1 {
-            return Err(KeyError::new(
-                "light",
-                format!(": expected at most 1 [[light]], found {}", lights.len()),
-            ));
-        }
-        let rgb = |key: &str, rgb: [f64; 3], most: f64| {
-            let good = rgb.iter().all(|c| (0.0..=most).contains(c));
-            good.then_some(())
-                .ok_or_else(|| KeyError::new(key, format!(" = {rgb:?}: allowed is 0 to {most} each")))
-        };
-        let range = KeyError::range;
-        for light in &lights {
-            rgb("light.irradiance", light.irradiance, 1e6)?;
-            let direction = DVec3::from_array(light.direction);
-            if !direction.is_finite() || direction.length() < 1e-9 {
-                let message = format!(" = {:?}: allowed is any vector but 0", light.direction);
-                return Err(KeyError::new("light.direction", message));
-            }
-        }
+        let (rgb, range) = (KeyError::rgb, KeyError::range);
+        check_lights(&self.light())?;
+        self.ambient.check()?;
         for fabric in &self.fabric {
             range("fabric.mm_per_unit", fabric.mm_per_unit.unwrap_or(1.0), 1e-9, 1e9)?;
         }
-        for fiber in self.fabric.iter().filter_map(|f| f.fiber.as_ref()).chain([&self.fiber]) {
-            rgb("fiber.diffuse", fiber.diffuse, 1.0)?;
-            rgb("fiber.specular", fiber.specular, 1e3)?;
-            range("fiber.specular_width_deg", fiber.specular_width_deg, 0.5, 90.0)?;
-        }
-        rgb("ambient.radiance", self.ambient.radiance, 1e6)?;
         rgb("display.background", self.display.background, 1e6)?;
         range("display.exposure_stops", self.display.exposure_stops, -30.0, 30.0)?;
         range("camera.yaw_deg", self.camera.yaw_deg, -1e6, 1e6)?;
@@ -71,6 +47,7 @@ impl SceneFile {
             let message = format!(" = {rows}: allowed is a power of two from 8 to 512");
             return Err(KeyError::new("quality.core_texture_rows", message));
         }
+        range("quality.scattering_entries", f64::from(self.quality.scattering_entries), 4.0, 1024.0)?;
         range("quality.max_subdivisions", f64::from(self.quality.max_subdivisions), 1.0, 64.0)?;
         range("quality.patches_per_draw", f64::from(self.quality.patches_per_draw.unwrap_or(1)), 1.0, 1e9)
     }
@@ -79,10 +56,12 @@ impl SceneFile {
     /// key may stand, the likeliest first.
     fn check(&self) -> Result<(), (KeyError, Vec<String>)> {
         self.validate().map_err(|error| {
-            // A fiber's look may stand in the scene or in a fabric.
-            let paths = vec![error.path.clone(), format!("fabric.{}", error.path)];
+            // A key that is missed stands in its table.
+            let table = error.path.rsplit_once('.').map_or("", |(table, _)| table).to_owned();
+            let paths = vec![error.path.clone(), table];
             (error, paths)
         })?;
+        check_fibers(self)?;
         check_yarns(self)
     }
 }
@@ -122,10 +101,12 @@ impl Scene {
             .map(|table| Fabric::load(&file, table, &folder, &name))
             .collect::<Result<Vec<_>, _>>()?;
         let origin_mm = center(&fabrics);
-        Ok(Self { file, fabrics, origin_mm })
+        let environment = load_environment(&file.ambient, &folder)?;
+        Ok(Self { file, fabrics, origin_mm, environment })
     }
 
-    /// A scene around generated stockinette, whatever fabric the file names; 1 unit is 1 mm.
+    /// A scene around generated stockinette, whatever fabric the file names; 1 unit is 1 mm. An environment's
+    /// path is relative to the working folder.
     ///
     /// # Errors
     /// Values out of range; fabric that cannot be knitted.
@@ -144,8 +125,14 @@ impl Scene {
         file.fabric = vec![table];
         let fabrics = vec![fabric];
         let origin_mm = center(&fabrics);
-        Ok(Self { file, fabrics, origin_mm })
+        let environment = load_environment(&file.ambient, Path::new(""))?;
+        Ok(Self { file, fabrics, origin_mm, environment })
     }
+}
+
+/// The picture of the light from everywhere, where one gives light; `folder` is what its path is relative to.
+fn load_environment(ambient: &AmbientTable, folder: &Path) -> Result<Option<Arc<LinearImage>>, FileError> {
+    ambient.picture().map(|picture| read_environment(&folder.join(picture)).map(Arc::new)).transpose()
 }
 
 /// Reads a scene file and checks it as it stands, so that an error has its line.
@@ -180,96 +167,5 @@ fn center(fabrics: &[Fabric]) -> DVec3 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn load(text: &str, sets: &[&str]) -> Result<Scene, SceneError> {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("scene.toml");
-        std::fs::write(&path, text).unwrap();
-        std::fs::write(folder.path().join("yarn.obj"), "v 0 0 0\nv 1 0 0\nv 2 1 0\nl 1 2 3\n").unwrap();
-        Scene::load(&path, &sets.iter().map(|s| s.to_string()).collect::<Vec<_>>())
-    }
-
-    const GOOD: &str = "[fabric]\nmodel = 'yarn.obj'\nmm_per_unit = 10.0\n";
-
-    #[test]
-    fn loads_with_defaults_and_overrides() {
-        let scene =
-            load(GOOD, &["yarn.fibers_per_ply=7", "camera.yaw_deg=30", "ambient.radiance=[0,0,0]"]).unwrap();
-        assert_eq!(scene.fabrics[0].yarn.fibers_per_ply, 7);
-        assert_eq!((scene.file.camera.yaw_deg, scene.file.camera.fov_y_deg), (30.0, 35.0));
-        assert_eq!(scene.fabrics[0].strands.pieces.len(), 2);
-    }
-
-    #[test]
-    fn several_fabrics_and_one_are_both_understood() {
-        let two =
-            "[[fabric]]\nmodel = 'yarn.obj'\n[[fabric]]\nmodel = 'yarn.obj'\n[fabric.yarn]\nply_count = 2\n";
-        let scene = load(two, &[]).unwrap();
-        assert_eq!(scene.fabrics.iter().map(|f| f.yarn.ply_count).collect::<Vec<_>>(), [3, 2]);
-    }
-
-    #[test]
-    fn bad_scenes_are_one_line_that_names_file_and_place() {
-        for (text, sets, expected) in [
-            ("[fabric\n", &[][..], "line 1"),
-            ("[fabric]\nmodel = 'yarn.obj'\n[camera]\nyaw = 3\n", &[], "line 4: unknown field `yaw`"),
-            ("[camera]\nyaw_dge = 3\n", &[], "line 2: unknown field `yaw_dge`, expected one of `yaw_deg`"),
-            ("[camera]\nyaw_dge = 3\n", &[], "; did you mean `yaw_deg`?"),
-            ("[camera]\n\nfov_y_deg = 500\n", &[], "line 3: camera.fov_y_deg = 500: allowed is 1 to 170"),
-            ("[fabric.fiber]\ndiffuse = [2, 0, 0]\n", &[], "line 2: fiber.diffuse = [2.0, 0.0, 0.0]"),
-            ("[camera]\nyaw_deg = '3'\n", &[], "line 2: invalid type"),
-            (
-                "[yarn]\npreset = 'silk1'\nply_cuont = 3\n",
-                &[],
-                "line 3: yarn.ply_cuont: unknown key; did you mean `ply_count`?",
-            ),
-            (
-                "[yarn]\npreset = 'silk_1'\n",
-                &[],
-                "line 2: yarn.preset = \"silk_1\": no such preset; did you mean `silk1`?",
-            ),
-            ("[yarn]\nply_count = 'two'\n", &[], "line 2: yarn.ply_count = \"two\": expected a whole number"),
-            ("[yarn]\nmigration_min = 1\nmigration_max = 0.5\n", &[], "line 3: yarn.migration_max = 0.5"),
-            (
-                "[yarn]\nmigration_max = 0.1\n",
-                &[],
-                "line 2: yarn.migration_max = 0.1: allowed is at least migration_min",
-            ),
-            (
-                "seed = 1\n[yarn]\nfibers_per_ply = 2000\n[fabric]\n[fabric.yarn]\nply_count = 0\n",
-                &[],
-                "line 6: yarn.ply_count = 0",
-            ),
-            (
-                "[[fabric]]\n[[fabric]]\nyarn = {hair_tapir = 1}\n",
-                &[],
-                "line 3: yarn.hair_tapir: unknown key; did you mean `hair_taper`?",
-            ),
-            ("yarn = 3\n", &[], "line 1: invalid type"),
-            ("[fabric]\nmodel = 'none.bcc'\n", &[], "none.bcc"),
-            ("", &[], "expected a [fabric]"),
-            (GOOD, &["camera.fov_y_deg=500"], "camera.fov_y_deg = 500: allowed is 1 to 170"),
-            (GOOD, &["yarn.density_beta=-1"], "yarn.density_beta = -1"),
-            (GOOD, &["yarn.preset=wool"], "worsted_3ply"),
-            (GOOD, &["yarn.ply_cuont=2"], "yarn.ply_cuont: unknown key; did you mean `ply_count`?"),
-            (
-                GOOD,
-                &["fabric.yarn.ply_count=nan"],
-                "yarn.ply_count = NaN: expected a whole number, allowed is 1 to 8",
-            ),
-            (GOOD, &["yarn=3"], "yarn: invalid type: integer `3`"),
-            (GOOD, &["camera.yaw_deg=left"], "camera.yaw_deg: invalid type: string \"left\""),
-            (GOOD, &["camera.yaw_dge=1"], "did you mean `yaw_deg`?"),
-            (GOOD, &["shading.model=simpel"], "did you mean `simple`?"),
-            (GOOD, &["light=[{direction=[0,0,0]}]"], "light.direction"),
-            (GOOD, &["fiber.diffuse=[nan,0,0]"], "fiber.diffuse"),
-            (GOOD, &["fabric.mm_per_unit=0"], "mm_per_unit"),
-        ] {
-            let error = load(text, sets).unwrap_err().to_string();
-            let named = error.contains("scene.toml") || error.contains("none.bcc");
-            assert!(named && error.contains(expected) && !error.contains('\n'), "{error}");
-        }
-    }
-}
+#[path = "load_tests.rs"]
+mod tests;

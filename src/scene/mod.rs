@@ -3,17 +3,21 @@
 pub mod camera;
 pub mod fabric;
 pub mod features;
+pub mod fiber_table;
 pub mod file;
 pub mod keys;
+pub mod light;
 pub mod load;
 pub mod overrides;
 pub mod yarn_table;
 
 use crate::io::error::FileError;
+use crate::io::picture::LinearImage;
 use crate::knit::error::KnitError;
 pub use fabric::Fabric;
 pub use file::SceneFile;
 use glam::DVec3;
+use std::sync::Arc;
 
 /// Why a scene cannot be had; each is one line.
 #[derive(Debug, thiserror::Error)]
@@ -44,4 +48,6 @@ pub struct Scene {
     /// Centre of everything. Positions go to the device relative to it, so that a model far from the
     /// file's origin keeps its digits.
     pub origin_mm: DVec3,
+    /// The picture of the light from everywhere, if the file names one that gives light.
+    pub environment: Option<Arc<LinearImage>>,
 }

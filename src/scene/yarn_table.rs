@@ -1,7 +1,7 @@
 //! From a scene's yarn tables to a yarn: the preset, then what the scene and the fabric say otherwise.
 
 use super::file::SceneFile;
-use super::keys::{KeyError, nearest};
+use super::keys::{KeyError, nearest, suggestion};
 use crate::yarn::params::YarnParams;
 use crate::yarn::presets;
 use crate::yarn::ranges::{PARAMETERS, ParamError, find, shown};
@@ -79,10 +79,6 @@ fn unknown_key(key: &str) -> KeyError {
         None => format!(": unknown key; expected one of {}", known().collect::<Vec<_>>().join(", ")),
     };
     KeyError::new(&format!("yarn.{}", key.escape_debug()), message)
-}
-
-fn suggestion(near: Option<&str>) -> String {
-    near.map_or(String::new(), |near| format!("; did you mean `{near}`?"))
 }
 
 fn at_key(error: ParamError) -> KeyError {

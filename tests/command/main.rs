@@ -152,13 +152,16 @@ fn statistics_go_to_a_file_and_passes_are_empty_unless_profiled() {
 fn explain_says_what_was_left_out_and_why() {
     let place = Workplace::new();
     let matte =
-        ["--explain", "--set", "fiber.specular=[0,0,0]", "--set", "quality.culling=false", "-o", "a.png"];
+        ["--explain", "--set", "shading.specular=false", "--set", "quality.culling=false", "-o", "a.png"];
     let output = render(&place, &matte);
     assert_good(&output);
     let said = String::from_utf8(output.stdout).unwrap();
-    for line in
-        ["left out: specular, because fiber.specular is 0", "left out: culling", "device: ", "built: "]
-    {
+    for line in [
+        "left out: specular, because fiber.specular is 0, or shading.specular false",
+        "left out: culling",
+        "device: ",
+        "built: ",
+    ] {
         assert!(said.contains(line), "expected {line:?}: {said}");
     }
 }

@@ -2,11 +2,12 @@
 
 use crate::reflection::{self, Reflected};
 use crate::text_of;
-use worsted::gpu_types::{FIBERS_PER_PATCH, LENGTH_STRIPE};
+use worsted::gpu_types::{FIBERS_PER_PATCH, LENGTH_STRIPE, RADIANCE_MAX};
 use worsted::math::curve::Basis;
 use worsted::math::{frame, tone};
 use worsted::scene::features::Features;
 use worsted::scene::file::DebugView;
+use worsted::scene::light::LIGHT_RADIUS;
 use worsted::yarn::detail::CORE_LEVELS;
 
 /// Identifier and name of each specialization constant as Rust has them: `DebugView` is `DEBUG_VIEW`.
@@ -17,8 +18,12 @@ fn rust_specialization() -> Vec<(u32, String)> {
         distance_occlusion: false,
         statistics: false,
         specular: false,
+        diffuse: false,
+        physical: false,
         ambient: false,
-        light: false,
+        light_count: 0,
+        local_lights: false,
+        environment: false,
         debug_view: DebugView::Shaded,
         flyaways: false,
         core_fibers: false,
@@ -56,9 +61,10 @@ fn unknown(shader: &Reflected, known: &[(u32, String)]) -> Vec<String> {
     unknown.map(|(id, name)| format!("{}: constant {id} is {name}", shader.path)).collect()
 }
 
-/// The shaders that are specialised by [`Features`].
+/// The shaders that are specialised by [`Features`]; the tone curve has constants of its own.
 fn by_features(shader: &Reflected) -> bool {
-    shader.path.starts_with("passes/") || shader.path == "test/fiber_point.comp"
+    shader.path.starts_with("passes/") && shader.path != "passes/tonemap.comp"
+        || shader.path == "test/fiber_point.comp"
 }
 
 #[test]
@@ -70,6 +76,8 @@ fn specialization_constants_have_one_identifier_and_name() {
         assert_eq!(unknown(shader, &rust), Vec::<String>::new());
         used += shader.constants.len();
     }
+    let tone = [(0, "TONE".to_owned()), (1, "TRANSPARENT".to_owned())];
+    assert_eq!(declared(&text_of("glsl/passes/tonemap.comp")), tone, "src/passes/tonemap.rs sets these");
     assert!(used >= rust.len(), "reflection found only {used} constants");
 }
 
@@ -140,12 +148,14 @@ fn plain_constants_are_equal() {
                 ("FIBERS_PER_PATCH", f64::from(FIBERS_PER_PATCH)),
                 ("CORE_LEVELS", f64::from(CORE_LEVELS)),
                 ("LENGTH_STRIPE", f64::from(LENGTH_STRIPE)),
+                ("LIGHT_RADIUS", LIGHT_RADIUS),
+                ("RADIANCE_MAX", f64::from(RADIANCE_MAX)),
             ],
         ),
         ("glsl/shared/debug_views.glsl", &views),
         ("glsl/lib/curve.glsl", &bases),
         ("glsl/lib/frame.glsl", &[("NO_DIRECTION", frame::NO_DIRECTION)]),
-        ("glsl/lib/tone.glsl", &[("TONE_KNEE", tone::TONE_KNEE)]),
+        ("glsl/lib/tone.glsl", &[("TONE_KNEE", tone::TONE_KNEE), ("FILMIC_END", tone::FILMIC_END)]),
     ];
     for (file, rust) in files {
         assert_eq!(unequal(&text_of(file), rust), Vec::<String>::new(), "{file}");

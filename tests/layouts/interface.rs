@@ -5,8 +5,8 @@ use crate::reflection::{self, Descriptor, Layout, Member, Reflected};
 use crate::structs::differences;
 use crate::text_of;
 use spirq::ty::DescriptorType;
-use worsted::gpu_types::{Frame, Statistics};
-use worsted::passes::fibers::FibersPass;
+use worsted::gpu_types::{Frame, Light, Statistics};
+use worsted::passes::fibers::{FibersPass, FrameBuffers};
 use worsted::vulkan::{Binding, Buffer, DeviceChoice, MemoryKind, vk};
 
 /// The Vulkan type of a descriptor that a shader declares.
@@ -42,7 +42,8 @@ fn fiber_sets() -> Vec<Vec<Binding>> {
     let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
     let statistics =
         Buffer::upload(device, "statistics", storage, &[Statistics::default()]).expect("a small buffer");
-    let pass = FibersPass::new(device, frame, statistics).expect("the pass");
+    let lights = Buffer::upload(device, "lights", storage, &[Light::default()]).expect("a small buffer");
+    let pass = FibersPass::new(device, FrameBuffers { frame, statistics, lights }).expect("the pass");
     pass.layouts().map(|layout| layout.bindings().to_vec()).to_vec()
 }
 
@@ -54,7 +55,7 @@ fn draws_strands(shader: &Reflected) -> bool {
 #[test]
 fn bindings_of_the_fiber_shaders_are_those_of_the_pass() {
     let sets = fiber_sets();
-    assert_eq!(sets.iter().map(Vec::len).collect::<Vec<_>>(), [2, 7]);
+    assert_eq!(sets.iter().map(Vec::len).collect::<Vec<_>>(), [3, 8]);
     let mut seen = Vec::new();
     for shader in reflection::all().iter().filter(|shader| draws_strands(shader)) {
         for descriptor in &shader.descriptors {
@@ -90,7 +91,7 @@ fn a_moved_or_retyped_binding_is_found() {
     assert_eq!(mismatch(segments, &sets), None);
     assert_eq!(mismatch(texture, &sets), None);
     let moved = [(2, 1, segments), (1, 4, segments), (0, 0, segments), (1, 0, frame)];
-    for (set, binding, kind) in moved.into_iter().chain([(1, 7, texture), (1, 3, texture)]) {
+    for (set, binding, kind) in moved.into_iter().chain([(1, 8, texture), (1, 3, texture)]) {
         let wrong = Descriptor { set, binding, kind: kind.kind.clone() };
         assert!(mismatch(&wrong, &sets).is_some(), "{wrong:?} passed");
     }

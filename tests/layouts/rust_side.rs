@@ -1,7 +1,7 @@
 //! The Rust side: layouts of `src/gpu_types.rs` as the compiler has them.
 
 use crate::reflection::{Layout, Member};
-use worsted::gpu_types::{ControlPoint, Fiber, Frame, Segment, Statistics, Yarn};
+use worsted::gpu_types::{ControlPoint, Fiber, Frame, Light, Segment, Statistics, Yarn};
 
 /// A Rust type's name in GLSL.
 trait Glsl {
@@ -21,6 +21,7 @@ macro_rules! glsl_names {
 glsl_names! {
     f32 => "float", u32 => "uint", i32 => "int", [f32; 3] => "vec3", [f32; 4] => "vec4",
     [[f32; 4]; 4] => "mat4", [[f32; 4]; 5] => "vec4[5]",
+    [[f32; 4]; 9] => "vec4[9]",
     [f32; 8] => "float[8]",
 }
 
@@ -102,17 +103,23 @@ pub fn layouts() -> Vec<Layout> {
             core_thickness,
             slot_stride,
             reach,
+            k_tt,
+            n_tt,
+            scattering_entries,
+            padding,
             occlusion,
             diffuse,
-            specular
+            specular,
+            reflection,
+            transmission
         }),
+        layout!(Light { position, is_local, toward, cone_scale, strength, cone_offset }),
         layout!(Frame {
             clip_from_world,
             eye_world,
             frustum_world,
-            light_direction_world,
-            light_irradiance,
             ambient_radiance,
+            environment,
             tolerance_px,
             near_mm,
             pixel_tangent,

@@ -6,10 +6,14 @@ mod detail;
 #[path = "../support/device.rs"]
 mod device;
 mod draw;
+mod furnace;
 #[path = "../support/golden.rs"]
 #[allow(dead_code)]
 mod golden;
 mod invariance;
+mod lights;
+mod strand_judge;
+mod turned_light;
 
 use draw::{draw, draw_counted, hook, scene, swatch, yarn};
 use golden::{Tolerance, golden, golden_linear};
@@ -137,9 +141,11 @@ fn every_feature_that_is_left_out_was_dark_anyway() {
     let unlit = ["ambient.radiance=[0, 0, 0]", "light=[{irradiance = [0, 0, 0]}]"];
     assert_eq!(draw(scene(&hook(), &unlit), SIZE, 4).linear, dark.linear);
     // No specular lobe is the limit of a faint one.
-    let matte = draw(scene(&hook(), &["fiber.specular=[0, 0, 0]"]), SIZE, 4).linear;
-    let faint = draw(scene(&hook(), &["fiber.specular=[1e-9, 1e-9, 1e-9]"]), SIZE, 4).linear;
-    let glossy = draw(scene(&hook(), &[]), SIZE, 4).linear;
+    let simple = |specular: &str| {
+        let specular = format!("fiber.specular=[{specular}, {specular}, {specular}]");
+        draw(scene(&hook(), &["shading.model=simple", &specular]), SIZE, 4).linear
+    };
+    let (matte, faint, glossy) = (simple("0"), simple("1e-9"), simple("0.02"));
     assert_eq!(draw::differing(&matte, &faint), 0);
     assert!(draw::differing(&matte, &glossy) > 500);
 }

@@ -8,7 +8,7 @@ use worsted::error::Error;
 use worsted::knit::params::KnitParams;
 use worsted::knit::tube::{inner_radius_mm, tube};
 use worsted::scene::Scene;
-use worsted::scene::file::{CameraTable, DisplayTable, FiberTable, SceneFile};
+use worsted::scene::file::{CameraTable, DisplayTable, SceneFile};
 use worsted::vulkan::Device;
 
 const YARNS: [&str; 4] = ["worsted_3ply", "mercerised_2ply_cotton", "silk1", "mohair"];
@@ -62,7 +62,6 @@ fn front_mm(yarn: &str) -> Result<f64, Error> {
 /// The yarn in the fiber's default look.
 fn scene(yarn: &str, camera: CameraTable) -> Result<Scene, Error> {
     let mut file = SceneFile {
-        fiber: FiberTable::default(),
         camera: CameraTable { yaw_deg: 12.0, pitch_deg: Some(16.0), ..camera },
         display: DisplayTable { background: [0.02, 0.021, 0.024], ..Default::default() },
         ..Default::default()

@@ -4,6 +4,7 @@ mod demo;
 mod fig10;
 mod fig11;
 mod fig13;
+mod fig14;
 mod fig16;
 mod fig4;
 mod fig5;
@@ -32,13 +33,14 @@ fn main() -> ExitCode {
 type Draw = fn(&Arc<Device>) -> Result<(), Error>;
 
 /// Every figure by its name.
-const FIGURES: [(&str, Draw); 9] = [
+const FIGURES: [(&str, Draw); 10] = [
     ("fig4", fig4::draw),
     ("fig5", fig5::draw),
     ("fig9", fig9::draw),
     ("fig10", fig10::draw),
     ("fig11", fig11::draw),
     ("fig13", fig13::draw),
+    ("fig14", fig14::draw),
     ("fig16", fig16::draw),
     ("presets", presets::draw),
     ("demo", demo::draw),

@@ -54,7 +54,7 @@ pub fn scene_of(file: SceneFile, name: &str, curves: Vec<Curve>) -> Result<Scene
         Loaded { curves, repairs: Vec::new(), notes: Vec::new(), format: "figure", kept_points: None };
     let table = FabricTable { mm_per_unit: Some(1.0), ..Default::default() };
     let fabric = Fabric::from_loaded(&file, &table, loaded, name)?;
-    Ok(Scene { file, fabrics: vec![fabric], origin_mm: DVec3::ZERO })
+    Ok(Scene { file, fabrics: vec![fabric], origin_mm: DVec3::ZERO, environment: None })
 }
 
 /// An open strand through `at(s)` for s from -`half_mm` to `half_mm`, control points about `step_mm` apart.

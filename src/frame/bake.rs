@@ -1,0 +1,51 @@
+//! What is worked out on the CPU for a fabric before it is uploaded: only what its features ask for.
+
+use super::stats::Stats;
+use crate::precompute::core_texture::{CoreTexture, bake_core};
+use crate::precompute::occlusion_fit::fit_distance_occlusion;
+use crate::precompute::scattering_table::{self, ScatteringTable};
+use crate::scene::features::Features;
+use crate::scene::{Fabric, Scene};
+use crate::yarn::table::Fiber;
+use glam::DVec4;
+use std::time::Instant;
+
+/// A fabric's tables; absent where nothing reads them.
+pub struct Bakes {
+    /// Visibility as a cubic of the distance from the yarn's centre.
+    pub occlusion: Option<DVec4>,
+    /// What core fibers show.
+    pub core: Option<CoreTexture>,
+    /// Factors of the physical model's lobes.
+    pub scattering: Option<ScatteringTable>,
+}
+
+impl Bakes {
+    /// Bakes what `features` need of a fabric with these fibers, and tells `stats` how long each took.
+    pub fn new(
+        scene: &Scene,
+        fabric: &Fabric,
+        features: &Features,
+        cross_section: &[Fiber],
+        stats: &mut Stats,
+    ) -> Self {
+        let quality = &scene.file.quality;
+        let core =
+            || bake_core(&fabric.yarn, cross_section, quality.core_texture_rows, quality.core_visible_share);
+        let scattering = || scattering_table::bake(&fabric.fiber.scattering(), quality.scattering_entries);
+        Self {
+            occlusion: features
+                .distance_occlusion
+                .then(|| timed(stats, "distance_occlusion", || fit_distance_occlusion(&fabric.yarn))),
+            core: features.core_fibers.then(|| timed(stats, "core_texture", core)),
+            scattering: features.physical.then(|| timed(stats, "scattering_table", scattering)),
+        }
+    }
+}
+
+fn timed<T>(stats: &mut Stats, name: &str, bake: impl FnOnce() -> T) -> T {
+    let started = Instant::now();
+    let baked = bake();
+    stats.add_precompute(name, started.elapsed());
+    baked
+}
