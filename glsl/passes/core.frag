@@ -1,17 +1,19 @@
 #version 460
 // Shades a core fiber as the fibers it stands for, by its texture.
 #extension GL_GOOGLE_include_directive : require
+#include "covered.glsl"
 #include "surface.glsl"
 #include "../lib/coverage.glsl"
 #include "../lib/frame.glsl"
 
 layout(location = 0) centroid in vec3 fragment_position;
 layout(location = 1) centroid in vec3 fragment_tangent;
-layout(location = 2) centroid in vec4 fragment_side;     // a: across the core, as a share of the ellipse
+layout(location = 2) centroid in vec3 fragment_side;
 layout(location = 3) centroid in vec4 fragment_section;  // width, depth, shear (mm), turns
 layout(location = 4) centroid in vec4 fragment_rates;    // of the first three and of the turn (radians), per mm
 layout(location = 5) centroid in vec3 fragment_place;    // from_yarn along side and toward, level
 layout(location = 6) flat in uvec3 fragment_core;        // ply, what a debug view shows, piece of yarn
+layout(location = 7) noperspective in float fragment_across; // as a share of the ellipse
 
 layout(location = 0) out vec4 radiance;
 
@@ -48,7 +50,7 @@ float yarn_distance(float v, float height) {
 void main() {
     float pixel_mm = frame.pixel_tangent / gl_FragCoord.w;
     float texels = texels_of(pixel_mm);
-    float v = fragment_side.w;
+    float v = covered_values(fragment_across, gl_SampleMaskIn[0]).x;
     vec2 uv = vec2(fract(fragment_section.w), 0.5 + 0.5 * v / yarn.core_extent);
     uvec4 words = cell_words(uv, texels);
     Surface surface = read_core(uv, log2(max(texels * frame.shading_spacing_px, 1e-3)), words.yz);
@@ -67,7 +69,7 @@ void main() {
     float shrink = 1.0 / (1.0 + dot(slope, slope));
 
     vec3 axis = direction_or(fragment_tangent, vec3(1.0, 0.0, 0.0));
-    vec3 side = normal_perpendicular_to(axis, fragment_side.xyz);
+    vec3 side = normal_perpendicular_to(axis, fragment_side);
     vec3 toward = cross(axis, side);
     Strand strand;
     strand.position = fragment_position;

@@ -17,11 +17,12 @@ layout(location = 6) in vec3 toward_world[];
 
 layout(location = 0) centroid out vec3 fragment_position;
 layout(location = 1) centroid out vec3 fragment_tangent;
-layout(location = 2) centroid out vec4 fragment_side;     // a: across the core, as a share of the ellipse
+layout(location = 2) centroid out vec3 fragment_side;
 layout(location = 3) centroid out vec4 fragment_section;  // width, depth, shear (mm), turns
 layout(location = 4) centroid out vec4 fragment_rates;    // of the first three and of the turn (radians), per mm
 layout(location = 5) centroid out vec3 fragment_place;    // from_yarn along side and toward, level
 layout(location = 6) flat out uvec3 fragment_core;        // ply, what a debug view shows, piece of yarn
+layout(location = 7) noperspective out float fragment_across; // as a share of the ellipse
 
 // Across the strip, as shares of its half-width; the arch's height is sqrt(1 - across^2). A ply that is small in
 // the picture gets half as many.
@@ -35,7 +36,8 @@ void emit(int end, float across, vec4 seen, vec4 rates) {
     fragment_position = position_world[end] + seen.x * v * side_world[end]
                       + (seen.y * height + seen.z * v) * toward_world[end];
     fragment_tangent = tangent_world[end];
-    fragment_side = vec4(side_world[end], v);
+    fragment_side = side_world[end];
+    fragment_across = v;
     fragment_section = seen;
     fragment_rates = rates;
     fragment_place = place[end].xyz;

@@ -1,14 +1,16 @@
 #version 460
 // Shades a fiber: Wu & Yuksel 2019's simple model.
 #extension GL_GOOGLE_include_directive : require
+#include "covered.glsl"
 #include "surface.glsl"
 #include "../lib/frame.glsl"
 
 layout(location = 0) centroid in vec3 fragment_position;
 layout(location = 1) centroid in vec3 fragment_tangent;
-layout(location = 2) centroid in vec4 fragment_side;
+layout(location = 2) centroid in vec3 fragment_side;
 layout(location = 3) centroid in float fragment_distance;
 layout(location = 4) flat in uvec2 fragment_fiber;  // index, what a debug view shows
+layout(location = 5) noperspective in float fragment_across; // -1 to 1 inside
 
 layout(location = 0) out vec4 radiance;
 
@@ -16,11 +18,11 @@ void main() {
     Strand strand;
     strand.position = fragment_position;
     strand.tangent = direction_or(fragment_tangent, vec3(1.0, 0.0, 0.0));
-    strand.side = normal_perpendicular_to(strand.tangent, fragment_side.xyz);
+    strand.side = normal_perpendicular_to(strand.tangent, fragment_side);
     strand.toward = cross(strand.side, strand.tangent);
     strand.distance = vec2(fragment_distance);
     strand.spread = vec3(0.0);
-    strand.normals = fiber_normals(clamp(fragment_side.w, -1.0, 1.0));
+    strand.normals = fiber_normals(covered_values(fragment_across, gl_SampleMaskIn[0]));
     strand.ply = DEBUG_VIEW == VIEW_PLY ? fibers[fragment_fiber.x].ply : 0u;
     strand.shown = fragment_fiber.y;
     radiance = strand_color(strand);

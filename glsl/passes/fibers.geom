@@ -17,9 +17,10 @@ layout(location = 4) in ivec4 joining[];
 // Centroid: a fiber is often thinner than a pixel, whose centre then lies outside its triangles.
 layout(location = 0) centroid out vec3 fragment_position;
 layout(location = 1) centroid out vec3 fragment_tangent;
-layout(location = 2) centroid out vec4 fragment_side;      // xyz: side, w: across, -1..1
+layout(location = 2) centroid out vec3 fragment_side;
 layout(location = 3) centroid out float fragment_distance; // from the yarn's centre, as a share of outer_radius
 layout(location = 4) flat out uvec2 fragment_fiber;  // index, what a debug view shows
+layout(location = 5) noperspective out float fragment_across; // -1 to 1
 
 void main() {
     // Which end of the line comes first along the yarn is the driver's choice.
@@ -37,7 +38,8 @@ void main() {
             vec3 corner = position_world[end] + float(edge) * tangent_world[end].w * yarn.fiber_radius * side;
             fragment_position = corner;
             fragment_tangent = tangent_world[end].xyz;
-            fragment_side = vec4(side, float(edge));
+            fragment_side = side;
+            fragment_across = float(edge);
             fragment_distance = center_distance[end] / yarn.outer_radius;
             fragment_fiber = uvec2(fiber_index[end], uint(joining[first].z));
             gl_Position = frame.clip_from_world * vec4(corner, 1.0);

@@ -38,13 +38,22 @@ Surface surface_of(vec4 normals, vec4 shape, vec4 spread) {
     return surface;
 }
 
-// The normal of one fiber at `across` in [-1, 1] of its strip, as means. Never filtered, however thin: of a strip
-// that others hide in part only the visible part counts, which the sample's own place stands for.
-vec4 fiber_normals(float across) {
+// The normal of one fiber at `across`, -1 to 1 over its strip.
+vec4 fiber_normal(float across) {
+    float inside = clamp(across, -1.0, 1.0);
     if (!CORE_FIBERS) {
-        return strip_normals(across);
+        return strip_normals(inside);
     }
-    return textureLod(core_normals, vec3(0.5, 0.5 + 0.5 * across, float(yarn.ply_count * CORE_LEVELS)), 0.0);
+    return textureLod(core_normals, vec3(0.5, 0.5 + 0.5 * inside, float(yarn.ply_count * CORE_LEVELS)), 0.0);
+}
+
+// Means over the places across the strip that a pixel's samples see, by their mean and deviation: two places stand
+// for all. Never over more of the strip, however thin it is: other fibers may hide the rest.
+vec4 fiber_normals(vec2 across) {
+    if (across.y == 0.0) {
+        return fiber_normal(across.x);
+    }
+    return 0.5 * (fiber_normal(across.x - across.y) + fiber_normal(across.x + across.y));
 }
 
 struct Strand {
