@@ -1,15 +1,18 @@
 //! The frame, top to bottom: what is built for a scene, and what one picture runs.
 
 mod bake;
+pub mod lighting;
 mod plan;
 pub mod sampling;
 pub mod stats;
+mod textures;
 pub mod upload;
 
-use crate::gpu_types::{Light, Statistics};
+use crate::gpu_types::{Statistics, TUBE_CORNERS};
 use crate::graph::{Graph, Pass};
 use crate::passes::fibers::{FibersPass, FrameBuffers};
 use crate::passes::resolve::ResolvePass;
+use crate::passes::shadow_map::{ShadowMap, ShadowMapPass};
 use crate::passes::targets::Targets;
 use crate::passes::tonemap::TonemapPass;
 use crate::precompute::environment::Environment;
@@ -17,10 +20,12 @@ use crate::scene::camera::Camera;
 use crate::scene::features::Features;
 use crate::scene::file::CameraTable;
 use crate::scene::light::{LightTable, check_lights};
+use crate::scene::shadow::Bounds;
 use crate::scene::{Scene, SceneError};
 use crate::vulkan::{Buffer, Device, ImageState, MemoryKind, VulkanError, vk};
 use crate::yarn::table::fiber_table;
 use bake::Bakes;
+use lighting::{LightRoom, cloth_bounds};
 use sampling::Sampling;
 use stats::Stats;
 use std::collections::{BTreeMap, HashMap};
@@ -61,8 +66,11 @@ pub struct Renderer {
     frame: Buffer,
     statistics: Buffer,
     lights: Buffer,
-    /// Lights that the pipelines loop over, and whether they know of point and spot lights.
-    light_room: (usize, bool),
+    shadow_views: Buffer,
+    /// What the pipelines, the buffers and the shadow map have room for.
+    light_room: LightRoom,
+    cloth: Bounds,
+    shadow_map: ShadowMapPass,
     fibers: FibersPass,
     resolve: ResolvePass,
     tonemap: TonemapPass,
@@ -83,12 +91,20 @@ impl Renderer {
         let frame = Buffer::new(device, "frame", frame_bytes, uniform, MemoryKind::Upload)?;
         let counted = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
         let statistics = Buffer::upload(device, "statistics", counted, &[Statistics::default()])?;
-        let shining = upload::lights(&scene.file.light(), scene.origin_mm);
-        let light_room = (shining.len(), shining.iter().any(|light| light.is_local != 0));
-        let lights = upload::light_buffer(device, shining.len())?;
+        let features: Vec<Features> =
+            scene.fabrics.iter().map(|f| Features::new(&scene.file, f, request.statistics)).collect();
+        let light_room = LightRoom::needed(&scene.file.light(), features.iter().any(|f| f.shadow_map));
+        let [lights, shadow_views] = light_room.buffers(device)?;
+        let map = ShadowMap::new(device, scene.file.shadow.resolution, light_room.views)?;
 
-        let buffers =
-            FrameBuffers { frame: frame.clone(), statistics: statistics.clone(), lights: lights.clone() };
+        let buffers = FrameBuffers {
+            frame: frame.clone(),
+            statistics: statistics.clone(),
+            lights: lights.clone(),
+            shadow_views: shadow_views.clone(),
+            shadow_map: map.image.clone(),
+        };
+        let mut shadow_map = ShadowMapPass::new(map, shadow_views.clone(), TUBE_CORNERS);
         let mut fibers = FibersPass::new(device, buffers)?;
         let mut stats = Stats::new(device, &scene, &request);
         let started = Instant::now();
@@ -96,18 +112,25 @@ impl Renderer {
         if scene.environment.is_some() {
             stats.add_precompute("environment", started.elapsed());
         }
-        for fabric in &scene.fabrics {
-            let features = Features::new(&scene.file, fabric, request.statistics);
+        let mut first_piece = 0;
+        for (index, (fabric, features)) in scene.fabrics.iter().zip(features).enumerate() {
             let cross_section = fiber_table(&fabric.yarn, scene.file.seed);
             let bakes = Bakes::new(&scene, fabric, &features, &cross_section, &mut stats);
-            let buffers = upload::fabric_buffers(device, &scene, fabric, &cross_section, &bakes)?;
+            let buffers =
+                upload::fabric_buffers(device, &scene, fabric, &cross_section, &bakes, first_piece)?;
             fibers.add_fabric(&buffers, features, samples)?;
+            let pieces = fabric.strands.pieces.len() as u32;
+            if let Some(sets) = fibers.sets(index).filter(|_| light_room.views > 0) {
+                shadow_map.add_fabric(device, &features, &fibers.layouts(), sets, pieces)?;
+            }
+            first_piece += pieces;
             stats.add_left_out(&features);
         }
         let resolve = ResolvePass::new(device, &targets)?;
         let tonemap = TonemapPass::new(device, &targets, &scene.file.display)?;
         let device = device.clone();
         let graph = Graph::default();
+        let cloth = cloth_bounds(&scene);
         Ok(Self {
             device,
             scene,
@@ -117,7 +140,10 @@ impl Renderer {
             frame,
             statistics,
             lights,
+            shadow_views,
             light_room,
+            cloth,
+            shadow_map,
             fibers,
             resolve,
             tonemap,
@@ -139,19 +165,14 @@ impl Renderer {
     /// Lights the scene by others from now on. Those that give no light cost nothing.
     ///
     /// # Errors
-    /// What a scene file may not say of lights; more that shine than the scene had when the renderer was built,
-    /// or a point or spot light where it had none: its pipelines hold no code for them.
+    /// What a scene file may not say of lights; more that shine or cast shadows than the scene had when the
+    /// renderer was built, or a point or spot light where it had none: its pipelines hold no code for them.
     pub fn set_lights(&mut self, lights: Vec<LightTable>) -> Result<(), SceneError> {
         let wrong = |message: String| SceneError::Value { scene: "lights".to_owned(), message };
         check_lights(&lights).map_err(|error| wrong(error.to_string()))?;
-        let shining = lights.iter().filter(|light| light.shines());
-        let (count, local) = (shining.clone().count(), shining.clone().any(LightTable::is_local));
-        let (room, local_room) = self.light_room;
-        if count > room {
-            return Err(wrong(format!("expected at most {room} that shine, as at first, found {count}")));
-        }
-        if local && !local_room {
-            return Err(wrong("expected directional lights alone, as at first, found another".to_owned()));
+        let needed = LightRoom::needed(&lights, self.light_room.views > 0);
+        if let Some(message) = self.light_room.lacks(&needed) {
+            return Err(wrong(message));
         }
         self.scene.file.light = Some(lights);
         Ok(())
@@ -182,10 +203,13 @@ impl Renderer {
         if self.request.statistics {
             self.statistics.replace(&[Statistics::default()])?;
         }
-        let mut lights = upload::lights(&self.scene.file.light(), self.scene.origin_mm);
-        // The pipelines loop over as many as there were at first; the rest are dark.
-        lights.resize(self.light_room.0, Light::default());
-        self.lights.write(0, &lights)?;
+        self.lights.write(0, &self.light_room.lights(&self.scene.file.light(), self.scene.origin_mm))?;
+        let views = self.light_room.views(&self.scene, &camera, self.cloth);
+        self.shadow_views.write(0, &views)?;
+        if let Some(pass) = self.shadow_map.pass(views.len() as u32) {
+            let timings = self.request.profile.then_some(&mut passes);
+            taken += run(&mut self.graph, &self.device, &[pass], timings)?;
+        }
         for index in 0..frames {
             let frame = upload::frame(&self.scene, &camera, &self.environment, &self.request, index);
             self.frame.write(0, &[frame])?;

@@ -8,6 +8,9 @@ pub const FIBERS_PER_PATCH: u32 = 64;
 /// Rest length in mm after which the colours of the length view repeat; `LENGTH_STRIPE` there.
 pub const LENGTH_STRIPE: f32 = 10.0;
 
+/// Corners of a piece of yarn in the shadow map; `TUBE_CORNERS` there.
+pub const TUBE_CORNERS: u32 = 12;
+
 /// Largest finite half float, above which a frame's format would hold infinity; `RADIANCE_MAX` there.
 pub const RADIANCE_MAX: f32 = 65_504.0;
 
@@ -149,11 +152,11 @@ pub struct Yarn {
     pub n_tt: f32,
     /// Of each lobe's table.
     pub scattering_entries: u32,
-    /// Not used.
-    pub padding: f32,
+    /// Of this fabric's pieces, counted through all fabrics.
+    pub first_piece: u32,
     /// Visibility as a cubic of (distance from the centre / outer radius).
     pub occlusion: [f32; 4],
-    /// k_d, rgb.
+    /// k_d, rgb, and extinction per outer radius.
     pub diffuse: [f32; 4],
     /// k_s, rgb, and beta in radians.
     pub specular: [f32; 4],
@@ -179,6 +182,30 @@ pub struct Light {
     pub strength: [f32; 3],
     /// With `cone_scale`.
     pub cone_offset: f32,
+    /// First of its views of the shadow map.
+    pub shadow_view: u32,
+    /// 1, 6 for a point light, or 0 without a shadow.
+    pub shadow_view_count: u32,
+    /// Of half the angle that the light spans in the sky; 0 for sharp shadows.
+    pub angular_tangent: f32,
+    /// Not used.
+    pub padding: f32,
+}
+
+/// What one light sees of the cloth, in one layer of the shadow map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct ShadowView {
+    /// Column-major.
+    pub clip_from_world: [[f32; 4]; 4],
+    /// Depth in mm away from the light is xyz . p + w.
+    pub depth_axis: [f32; 4],
+    /// Toward the light: xyz - w p.
+    pub toward: [f32; 4],
+    /// Width of a texel: mm for a directional light, mm per mm of depth for another.
+    pub texel: f32,
+    /// Not used.
+    pub padding: [f32; 3],
 }
 
 /// What one picture of the scene needs; world space in mm, relative to the scene's origin.

@@ -22,4 +22,10 @@ layout(set = 1, binding = 6) uniform sampler2DArray core_spread;  // mean square
 // Of R and then of TT: src/precompute/scattering_table.rs.
 layout(std430, set = 1, binding = 7) readonly buffer ScatteringBlock { vec4 scattering_table[]; };
 
+// Of the yarn's cross-section: src/precompute/self_shadow.rs and occlusion_table.rs.
+layout(set = 1, binding = 8) uniform sampler3D self_shadow_table;
+layout(set = 1, binding = 9) uniform sampler2D occlusion_table;
+
+layout(std430, set = 0, binding = 3) readonly buffer ShadowViewBlock { ShadowView shadow_views[]; };
+
 #endif

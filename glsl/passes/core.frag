@@ -41,10 +41,11 @@ uvec4 cell_words(vec2 uv, float texels) {
     return hash_words(uvec4(uvec2(place), fragment_core.z * 8u + fragment_core.x, frame.index));
 }
 
-// Distance from the yarn's centre, as a share of outer_radius, of what lies at `v` across and `height` above.
-float yarn_distance(float v, float height) {
+// Place in the yarn's cross-section, along side and toward and as a share of outer_radius, of what lies at `v`
+// across and `height` above.
+vec2 yarn_place(float v, float height) {
     vec2 offset = vec2(fragment_section.x * v, fragment_section.y * height + fragment_section.z * v);
-    return length(offset + yarn.ply_offset * fragment_place.xy) / yarn.outer_radius;
+    return (offset + yarn.ply_offset * fragment_place.xy) / yarn.outer_radius;
 }
 
 void main() {
@@ -81,7 +82,14 @@ void main() {
     // Heights are skewed: none lies above the ply's round.
     float top = sqrt(max(0.0, yarn.core_extent * yarn.core_extent - v * v));
     float rough = clamp(top - surface.height, 0.0, surface.rough);
-    strand.distance = vec2(yarn_distance(v, surface.height - rough), yarn_distance(v, surface.height + rough));
+    strand.distance = vec2(length(yarn_place(v, surface.height - rough)), length(yarn_place(v, surface.height + rough)));
+    // The ply's own frame, in the plane of side and toward.
+    vec2 normal = direction_or(vec3(fragment_place.xy, 0.0), vec3(0.0, 1.0, 0.0)).xy;
+    vec2 place = yarn_place(v, surface.height);
+    strand.place = vec2(dot(place, normal), normal.x * place.y - normal.y * place.x);
+    strand.ply_normal = normal.x * side + normal.y * toward;
+    strand.ply_binormal = normal.x * toward - normal.y * side;
+    strand.piece = fragment_core.z;
     strand.ply = fragment_core.x;
     strand.shown = fragment_core.y;
     radiance = strand_color(strand);

@@ -8,9 +8,11 @@
 layout(location = 0) centroid in vec3 fragment_position;
 layout(location = 1) centroid in vec3 fragment_tangent;
 layout(location = 2) centroid in vec3 fragment_side;
-layout(location = 3) centroid in float fragment_distance;
-layout(location = 4) flat in uvec2 fragment_fiber;  // index, what a debug view shows
+layout(location = 3) centroid in vec2 fragment_place;
+layout(location = 4) flat in uvec3 fragment_fiber;  // index, what a debug view shows, piece of yarn
 layout(location = 5) noperspective in float fragment_across; // -1 to 1 inside
+layout(location = 6) centroid in vec3 fragment_normal;
+layout(location = 7) centroid in vec3 fragment_binormal;
 
 layout(location = 0) out vec4 radiance;
 
@@ -20,7 +22,11 @@ void main() {
     strand.tangent = direction_or(fragment_tangent, vec3(1.0, 0.0, 0.0));
     strand.side = normal_perpendicular_to(strand.tangent, fragment_side);
     strand.toward = cross(strand.side, strand.tangent);
-    strand.distance = vec2(fragment_distance);
+    strand.distance = vec2(length(fragment_place));
+    strand.place = fragment_place;
+    strand.ply_normal = fragment_normal;
+    strand.ply_binormal = fragment_binormal;
+    strand.piece = fragment_fiber.z;
     strand.spread = vec3(0.0);
     strand.normals = fiber_normals(covered_values(fragment_across, gl_SampleMaskIn[0]));
     strand.ply = DEBUG_VIEW == VIEW_PLY ? fibers[fragment_fiber.x].ply : 0u;

@@ -10,17 +10,22 @@ layout(triangle_strip, max_vertices = 4) out;
 
 layout(location = 0) in vec3 position_world[];
 layout(location = 1) in vec4 tangent_world[];
-layout(location = 2) in float center_distance[];
+layout(location = 2) in vec2 section_place[];
 layout(location = 3) in uint fiber_index[];
 layout(location = 4) in ivec4 joining[];
+layout(location = 5) in vec3 ply_normal[];
+layout(location = 6) in vec3 ply_binormal[];
+layout(location = 7) in uint piece[];
 
 // Centroid: a fiber is often thinner than a pixel, whose centre then lies outside its triangles.
 layout(location = 0) centroid out vec3 fragment_position;
 layout(location = 1) centroid out vec3 fragment_tangent;
 layout(location = 2) centroid out vec3 fragment_side;
-layout(location = 3) centroid out float fragment_distance; // from the yarn's centre, as a share of outer_radius
-layout(location = 4) flat out uvec2 fragment_fiber;  // index, what a debug view shows
+layout(location = 3) centroid out vec2 fragment_place;     // in the yarn's cross-section, as a share of outer_radius
+layout(location = 4) flat out uvec3 fragment_fiber;  // index, what a debug view shows, piece of yarn
 layout(location = 5) noperspective out float fragment_across; // -1 to 1
+layout(location = 6) centroid out vec3 fragment_normal;       // of the ply, and its binormal
+layout(location = 7) centroid out vec3 fragment_binormal;
 
 void main() {
     // Which end of the line comes first along the yarn is the driver's choice.
@@ -40,8 +45,10 @@ void main() {
             fragment_tangent = tangent_world[end].xyz;
             fragment_side = side;
             fragment_across = float(edge);
-            fragment_distance = center_distance[end] / yarn.outer_radius;
-            fragment_fiber = uvec2(fiber_index[end], uint(joining[first].z));
+            fragment_place = section_place[end] / yarn.outer_radius;
+            fragment_normal = ply_normal[end];
+            fragment_binormal = ply_binormal[end];
+            fragment_fiber = uvec3(fiber_index[end], uint(joining[first].z), piece[end]);
             gl_Position = frame.clip_from_world * vec4(corner, 1.0);
             EmitVertex();
         }

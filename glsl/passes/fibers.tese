@@ -17,9 +17,12 @@ layout(location = 4) patch in uvec2 patch_mask;
 
 layout(location = 0) out vec3 position_world;
 layout(location = 1) out vec4 tangent_world;   // a: share of the fiber's width
-layout(location = 2) out float center_distance;
+layout(location = 2) out vec2 section_place;    // in the yarn's cross-section along its ply's normal and binormal, mm
 layout(location = 3) out uint fiber_index;
 layout(location = 4) out ivec4 joining;        // entry, exit, what a debug view shows, place along the piece
+layout(location = 5) out vec3 ply_normal;
+layout(location = 6) out vec3 ply_binormal;
+layout(location = 7) out uint piece;
 
 // Factor of the fiber's own width where level of detail is at work: `flies` where it stands out of the ply as a
 // loop or a hair, for which no core stands.
@@ -53,5 +56,9 @@ void main() {
     }
     position_world = f.position;
     tangent_world = vec4(f.tangent, CORE_FIBERS ? f.width * drawn_width(slot, f.position, flies) : f.width);
-    center_distance = f.center_distance;
+    ply_normal = f.ply_normal;
+    ply_binormal = f.ply_binormal;
+    vec3 from_center = f.position - f.yarn_center;
+    section_place = vec2(dot(from_center, ply_normal), dot(from_center, ply_binormal));
+    piece = patch_segment;
 }

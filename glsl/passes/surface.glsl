@@ -10,6 +10,8 @@
 #include "../shading/environment.glsl"
 #include "../shading/light.glsl"
 #include "../shading/occlusion.glsl"
+#include "../shading/self_shadow.glsl"
+#include "shadowed.glsl"
 #include "../shared/debug_views.glsl"
 #include "../yarn/period.glsl"
 
@@ -62,6 +64,10 @@ struct Strand {
     vec3 side;       // unit, perpendicular to the tangent
     vec3 toward;     // unit, perpendicular to both, toward the viewer
     vec2 distance;   // from the yarn's centre, as a share of outer_radius: a deviation nearer and farther than the mean
+    vec2 place;      // in the yarn's cross-section along its ply's normal and binormal, as a share of outer_radius
+    vec3 ply_normal;
+    vec3 ply_binormal;
+    uint piece;      // of yarn
     vec3 spread;     // of the tangent
     vec4 normals;
     uint ply;
@@ -71,6 +77,9 @@ struct Strand {
 // Wu & Yuksel 2019, Fig. 4: migration dark, loops green, hairs red; core fibers blue.
 const vec3 KIND_COLORS[4] = vec3[4](vec3(0.08), vec3(0.1, 0.75, 0.15), vec3(0.85, 0.08, 0.05), vec3(0.1, 0.2, 0.6));
 
+// Below this share of a light nobody looks whether another yarn takes it as well: a five-hundredth of a stop.
+const float LEAST_SHARE = 1e-3;
+
 vec4 scattering_entry(uint lobe, uint index) {
     return scattering_table[lobe * yarn.scattering_entries + index];
 }
@@ -78,6 +87,25 @@ vec4 scattering_entry(uint lobe, uint index) {
 Scattering yarn_scattering() {
     return Scattering(yarn.reflection.rgb, yarn.transmission.rgb, yarn.reflection.a, yarn.transmission.a,
                       yarn.k_tt, yarn.n_tt, yarn.scattering_entries);
+}
+
+// Share of the light from `direction` that its own yarn lets through to a fiber.
+float through_yarn(Strand strand, vec3 direction) {
+    vec2 light = vec2(dot(strand.ply_normal, direction), dot(strand.ply_binormal, direction));
+    // Every ply sees the others alike: this one stands for ply 0.
+    uvec2 size = uvec2(textureSize(self_shadow_table, 0).xz);
+    vec3 place = self_shadow_place(strand.place, light, yarn.ply_count, size);
+    return self_shadow_light(self_shadow_depth(self_shadow_table, place), yarn.diffuse.a, min(1.0, length(light)));
+}
+
+// Share of a light that neither its own yarn nor another takes from a fiber.
+float unshadowed(Strand strand, Light light, vec3 to_light) {
+    float share = SELF_SHADOW ? through_yarn(strand, to_light) : 1.0;
+    if (SHADOW_MAP && share > LEAST_SHARE && light.shadow_view_count > 0u) {
+        vec3 tangent_yarn = cross(strand.ply_normal, strand.ply_binormal);
+        share *= shadow_map_light(light, strand.position, to_light, tangent_yarn, strand.piece);
+    }
+    return share;
 }
 
 // Radiance toward the eye per irradiance from one direction, its cosine included.
@@ -102,8 +130,9 @@ vec3 scatter(Strand strand, vec3 to_light, vec3 to_eye) {
 }
 
 // Radiance toward the eye of light from everywhere (Wu & Yuksel 2019, Eq. 7 and 8). Where it differs by direction
-// each lobe gathers it blurred by the lobe's own width: R from the cone that mirrors the view, TT from behind.
-vec3 ambient(Strand strand, vec3 to_eye) {
+// each lobe gathers it blurred by the lobe's own width: R from the cone that mirrors the view, TT from behind. What
+// comes from behind came through the yarn.
+vec3 ambient(Strand strand, vec3 to_eye, float visibility) {
     vec3 sum = vec3(0.0);
     vec3 reflected_light = frame.ambient_radiance.rgb;
     vec3 transmitted_light = reflected_light;
@@ -113,7 +142,7 @@ vec3 ambient(Strand strand, vec3 to_eye) {
     }
     if (DIFFUSE) {
         // Of constant light from everywhere, the diffuse lobe's integral is its strength.
-        sum += yarn.diffuse.rgb * diffuse_light;
+        sum += yarn.diffuse.rgb * diffuse_light * visibility;
     }
     if (PHYSICAL && SPECULAR) {
         Scattering scattering = yarn_scattering();
@@ -127,7 +156,8 @@ vec3 ambient(Strand strand, vec3 to_eye) {
         }
         vec3 reflected, transmitted;
         ambient_scattering(strand.tangent, to_eye, scattering, reflected, transmitted);
-        sum += reflected * reflected_light + transmitted * transmitted_light;
+        float behind = SELF_SHADOW ? through_yarn(strand, -to_eye) : visibility;
+        sum += reflected * reflected_light * visibility + transmitted * transmitted_light * behind;
     }
     return sum;
 }
@@ -137,10 +167,13 @@ vec3 shade(Strand strand, vec3 to_eye, float visibility) {
     for (uint i = 0u; i < LIGHT_COUNT; ++i) {
         Arriving arriving = LOCAL_LIGHTS ? light_at(lights[i], strand.position)
                                          : Arriving(lights[i].toward, lights[i].strength);
-        sum += scatter(strand, arriving.to_light, to_eye) * arriving.irradiance;
+        float share = unshadowed(strand, lights[i], arriving.to_light);
+        if (share > 0.0) {
+            sum += scatter(strand, arriving.to_light, to_eye) * (share * arriving.irradiance);
+        }
     }
     if (AMBIENT) {
-        sum += ambient(strand, to_eye) * visibility;
+        sum += ambient(strand, to_eye, visibility);
     }
     // Close to a light there is no limit. `min` might hide what is no number.
     return mix(sum, vec3(RADIANCE_MAX), greaterThan(sum, vec3(RADIANCE_MAX)));
@@ -158,9 +191,14 @@ float rounding(vec3 normal, vec3 to_eye) {
 vec4 strand_color(Strand strand) {
     vec3 to_eye = direction_or(frame.eye_world.xyz - strand.position, vec3(0.0, 0.0, 1.0));
     // What is seen lies at many depths: two stand for them.
-    float visibility = DISTANCE_OCCLUSION ? 0.5 * (distance_occlusion(yarn.occlusion, strand.distance.x)
-                                                   + distance_occlusion(yarn.occlusion, strand.distance.y))
-                                          : 1.0;
+    float visibility = 1.0;
+    if (TEXTURE_OCCLUSION) {
+        vec2 place = occlusion_place(strand.place, uint(textureSize(occlusion_table, 0).x));
+        visibility = texture_occlusion(occlusion_table, place);
+    } else if (DISTANCE_OCCLUSION) {
+        visibility = 0.5 * (distance_occlusion(yarn.occlusion, strand.distance.x)
+                            + distance_occlusion(yarn.occlusion, strand.distance.y));
+    }
     vec3 normal = strand.normals.x * strand.side + strand.normals.y * strand.toward;
     vec3 color;
     switch (DEBUG_VIEW) {

@@ -21,4 +21,9 @@ const float RADIANCE_MAX = 65504.0;
 // Rest length in mm after which the colours of the length view repeat.
 const float LENGTH_STRIPE = 10.0;
 
+// Straight pieces that a piece of yarn is drawn with in the shadow map; two corners at each of their ends, and at
+// one more beyond either end of the piece.
+const uint TUBE_STEPS = 3;
+const uint TUBE_CORNERS = 12;
+
 #endif

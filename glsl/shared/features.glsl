@@ -19,5 +19,9 @@ layout(constant_id = 13) const bool LOCAL_LIGHTS = true; // point or spot lights
 layout(constant_id = 14) const bool ENVIRONMENT = true; // ambient light differs by direction
 layout(constant_id = 15) const bool DIFFUSE = true;
 layout(constant_id = 16) const bool PHYSICAL = true;    // Khungurn's lobes, not Wu & Yuksel's simple one
+layout(constant_id = 17) const bool SHADOW_MAP = true;  // yarns shadow one another
+layout(constant_id = 18) const bool SOFT_SHADOWS = true; // some light spans an angle
+layout(constant_id = 19) const bool SELF_SHADOW = true; // light is dimmed inside the yarn
+layout(constant_id = 20) const bool TEXTURE_OCCLUSION = false; // ambient light by place, not by distance
 
 #endif

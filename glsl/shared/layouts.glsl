@@ -77,15 +77,15 @@ struct Yarn {
     float k_tt;             // gamma_TT^-2
     float n_tt;             // 1 / (2 pi exp(-k) I0(k)), k = k_tt
     uint scattering_entries; // of each lobe's table
-    float padding;
+    uint first_piece;       // of this fabric's, counted through all fabrics
     vec4 occlusion;         // visibility as a cubic of (distance from the centre / outer_radius)
-    vec4 diffuse;           // k_d, rgb
+    vec4 diffuse;           // k_d, rgb; a: extinction per outer_radius
     vec4 specular;          // k_s, rgb; a: beta, radians
     vec4 reflection;        // C_R, rgb; a: beta_R, radians
     vec4 transmission;      // C_TT, rgb; a: beta_TT, radians
 };
 
-// One light: 48 bytes. World space: mm, relative to the scene's origin.
+// One light: 64 bytes. World space: mm, relative to the scene's origin.
 struct Light {
     vec3 position;          // of a point or spot light
     uint is_local;          // 1 for these, 0 for a directional light
@@ -93,6 +93,19 @@ struct Light {
     float cone_scale;       // falloff from a spot's axis; 0 otherwise
     vec3 strength;          // rgb: irradiance of a directional light, or irradiance at one metre
     float cone_offset;      // with cone_scale; 1 otherwise
+    uint shadow_view;       // first of its views of the shadow map
+    uint shadow_view_count; // 1, 6 for a point light, or 0 without a shadow
+    float angular_tangent;  // of half the angle that the light spans in the sky; 0 for sharp shadows
+    float padding;
+};
+
+// What one light sees of the cloth, in one layer of the shadow map.
+struct ShadowView {
+    mat4 clip_from_world;
+    vec4 depth_axis;        // depth in mm away from the light is xyz . p + w
+    vec4 toward;            // toward the light: xyz - w p
+    float texel;            // its width: mm for a directional light, mm per mm of depth for another
+    float padding[3];
 };
 
 // What one picture of the scene needs. World space: mm, relative to the scene's origin.

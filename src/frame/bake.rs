@@ -3,9 +3,12 @@
 use super::stats::Stats;
 use crate::precompute::core_texture::{CoreTexture, bake_core};
 use crate::precompute::occlusion_fit::fit_distance_occlusion;
+use crate::precompute::occlusion_table::{OCCLUSION_ACROSS, OcclusionTable, bake_occlusion_table};
 use crate::precompute::scattering_table::{self, ScatteringTable};
+use crate::precompute::self_shadow::{SelfShadowSize, SelfShadowTable, bake_self_shadow};
 use crate::scene::features::Features;
 use crate::scene::{Fabric, Scene};
+use crate::yarn::density::extinction_per_mm;
 use crate::yarn::table::Fiber;
 use glam::DVec4;
 use std::time::Instant;
@@ -18,6 +21,12 @@ pub struct Bakes {
     pub core: Option<CoreTexture>,
     /// Factors of the physical model's lobes.
     pub scattering: Option<ScatteringTable>,
+    /// Optical depth inside the yarn.
+    pub self_shadow: Option<SelfShadowTable>,
+    /// Ambient light inside the yarn, by place.
+    pub occlusion_texture: Option<OcclusionTable>,
+    /// Extinction per outer radius of the yarn.
+    pub extinction: f64,
 }
 
 impl Bakes {
@@ -33,10 +42,20 @@ impl Bakes {
         let core =
             || bake_core(&fabric.yarn, cross_section, quality.core_texture_rows, quality.core_visible_share);
         let scattering = || scattering_table::bake(&fabric.fiber.scattering(), quality.scattering_entries);
+        let yarn = &fabric.yarn;
+        let extinction_per_mm = scene.file.shading.extinction_scale * extinction_per_mm(yarn);
+        let distance = || fit_distance_occlusion(yarn, extinction_per_mm);
+        let texels = quality.occlusion_texels.unwrap_or(OCCLUSION_ACROSS);
+        let texture = || bake_occlusion_table(yarn, extinction_per_mm, texels);
+        let size = quality
+            .self_shadow_texels
+            .map_or_else(SelfShadowSize::default, |across| SelfShadowSize { across, slices: across / 4 });
+        let depth = || bake_self_shadow(yarn, size);
         Self {
-            occlusion: features
-                .distance_occlusion
-                .then(|| timed(stats, "distance_occlusion", || fit_distance_occlusion(&fabric.yarn))),
+            occlusion: features.distance_occlusion.then(|| timed(stats, "distance_occlusion", distance)),
+            occlusion_texture: features.texture_occlusion.then(|| timed(stats, "occlusion_texture", texture)),
+            self_shadow: features.self_shadow.then(|| timed(stats, "self_shadow", depth)),
+            extinction: extinction_per_mm * yarn.outer_radius_mm(),
             core: features.core_fibers.then(|| timed(stats, "core_texture", core)),
             scattering: features.physical.then(|| timed(stats, "scattering_table", scattering)),
         }

@@ -2,17 +2,16 @@
 
 use super::Request;
 use super::bake::Bakes;
-use crate::gpu_types::{ControlPoint, Fiber, Frame, LENGTH_STRIPE, Light, Segment, Yarn};
+use super::textures;
+use crate::gpu_types::{ControlPoint, Fiber, Frame, LENGTH_STRIPE, Segment, Yarn};
 use crate::math::frame::octahedral_from_unit;
 use crate::passes::fibers::FabricBuffers;
-use crate::precompute::core_texture::{CoreMip, CoreTexture, Moments};
 use crate::precompute::environment::{Environment, project_environment};
 use crate::precompute::scattering_table::azimuthal_constants;
 use crate::scene::camera::Camera;
 use crate::scene::file::QualityTable;
-use crate::scene::light::{self, LightTable};
 use crate::scene::{Fabric, Scene};
-use crate::vulkan::{Buffer, Device, Image, ImageInfo, ImageState, MemoryKind, VulkanError, vk};
+use crate::vulkan::{Buffer, Device, VulkanError, vk};
 use crate::yarn::detail::slot_stride;
 use crate::yarn::fetch::period_seed;
 use crate::yarn::fiber::Turns;
@@ -21,7 +20,6 @@ use crate::yarn::params::Spread;
 use crate::yarn::strand::Piece;
 use crate::yarn::table;
 use glam::{DMat4, DVec3, DVec4};
-use half::f16;
 use std::sync::Arc;
 
 /// Control points relative to the scene's origin: subtracted in f64, so that far-off models keep
@@ -73,7 +71,7 @@ pub fn fibers(cross_section: &[table::Fiber]) -> Vec<Fiber> {
 }
 
 /// What all yarns of a fabric share.
-pub fn yarn(fabric: &Fabric, quality: &QualityTable, bakes: &Bakes, seed: u64) -> Yarn {
+pub fn yarn(fabric: &Fabric, quality: &QualityTable, bakes: &Bakes, first_piece: u32, seed: u64) -> Yarn {
     let core = bakes.core.as_ref();
     let params = &fabric.yarn;
     let flyaways = Flyaways::new(params);
@@ -132,37 +130,12 @@ pub fn yarn(fabric: &Fabric, quality: &QualityTable, bakes: &Bakes, seed: u64) -
         k_tt: k_tt as f32,
         n_tt: n_tt as f32,
         scattering_entries: quality.scattering_entries,
-        padding: 0.0,
-        diffuse: rgb(fiber.diffuse()),
+        first_piece,
+        diffuse: with(DVec3::from_array(fiber.diffuse()), bakes.extinction),
         specular: with(DVec3::from_array(fiber.specular()), fiber.specular_width()),
         reflection: with(scattering.c_r, scattering.beta_r),
         transmission: with(scattering.c_tt, scattering.beta_tt),
     }
-}
-
-/// The lights that shine.
-pub fn lights(tables: &[LightTable], origin_mm: DVec3) -> Vec<Light> {
-    let light = |table: &LightTable| {
-        let light = light::Light::new(table, origin_mm);
-        Light {
-            position: light.position.unwrap_or_default().as_vec3().to_array(),
-            is_local: light.position.is_some().into(),
-            toward: light.toward.as_vec3().to_array(),
-            cone_scale: light.cone_scale as f32,
-            strength: light.strength.as_vec3().to_array(),
-            cone_offset: light.cone_offset as f32,
-        }
-    };
-    tables.iter().filter(|table| table.shines()).map(light).collect()
-}
-
-/// A buffer for `count` lights. Without any the shaders read none, but a descriptor must be there: one stands in.
-///
-/// # Errors
-/// Those of the device.
-pub fn light_buffer(device: &Arc<Device>, count: usize) -> Result<Buffer, VulkanError> {
-    let bytes = (size_of::<Light>() * count.max(1)) as u64;
-    Buffer::new(device, "lights", bytes, vk::BufferUsageFlags::STORAGE_BUFFER, MemoryKind::Upload)
 }
 
 /// The picture of the light from everywhere, projected; 0 without one.
@@ -209,7 +182,7 @@ fn columns(m: DMat4) -> [[f32; 4]; 4] {
     m.as_mat4().to_cols_array_2d()
 }
 
-/// Uploads a fabric whose fibers are `cross_section`, once. Without a core the shaders never read its texture,
+/// Uploads a fabric whose fibers are `cross_section` and whose pieces come after `first_piece` others, once. Without a core the shaders never read its texture,
 /// but a descriptor must be there: one texel stands in.
 ///
 /// # Errors
@@ -220,10 +193,11 @@ pub fn fabric_buffers(
     fabric: &Fabric,
     cross_section: &[table::Fiber],
     bakes: &Bakes,
+    first_piece: u32,
 ) -> Result<FabricBuffers, VulkanError> {
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
     let points = control_points(fabric, scene.origin_mm);
-    let yarn = yarn(fabric, &scene.file.quality, bakes, scene.file.seed);
+    let yarn = yarn(fabric, &scene.file.quality, bakes, first_piece, scene.file.seed);
     // Without the physical model the shaders never read its table, but a descriptor must be there.
     let none = vec![[0.0; 4]];
     let scattering = bakes.scattering.as_ref().map_or(&none, |table| &table.values);
@@ -232,39 +206,9 @@ pub fn fabric_buffers(
         segments: Buffer::upload(device, "yarn segments", usage, &segments(fabric))?,
         fibers: Buffer::upload(device, "fibers", usage, &fibers(cross_section))?,
         yarn: Buffer::upload(device, "yarn parameters", usage, &[yarn])?,
-        core: core_images(device, bakes.core.as_ref())?,
+        core: textures::core_images(device, bakes.core.as_ref())?,
         scattering: Buffer::upload(device, "scattering table", usage, scattering)?,
+        self_shadow: textures::self_shadow_image(device, bakes.self_shadow.as_ref())?,
+        occlusion: textures::occlusion_image(device, bakes.occlusion_texture.as_ref())?,
     })
-}
-
-/// The three images of a core texture.
-fn core_images(device: &Arc<Device>, core: Option<&CoreTexture>) -> Result<[Image; 3], VulkanError> {
-    let none = [CoreMip { columns: 1, rows: 1, texels: vec![Moments::default(); 2] }];
-    let (mips, layers) = core.map_or((&none[..], 2), |core| (&core.mips[..], core.layers));
-    let image = |name, part: fn(&Moments) -> [f64; 4]| {
-        let image = Image::new(
-            device,
-            &ImageInfo {
-                name,
-                format: vk::Format::R16G16B16A16_SFLOAT,
-                extent: [mips[0].columns, mips[0].rows, 1],
-                layers,
-                mip_levels: mips.len() as u32,
-                usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST,
-                ..Default::default()
-            },
-        )?;
-        let halves = |mip: &CoreMip| -> Vec<[f16; 4]> {
-            mip.texels.iter().map(|texel| part(texel).map(f16::from_f64)).collect()
-        };
-        let levels: Vec<Vec<[f16; 4]>> = mips.iter().map(halves).collect();
-        let levels: Vec<&[[f16; 4]]> = levels.iter().map(Vec::as_slice).collect();
-        image.upload_mips(&levels, ImageState::SAMPLED_GRAPHICS)?;
-        Ok(image)
-    };
-    Ok([
-        image("core normals", |texel| texel.normals)?,
-        image("core shape", |texel| texel.shape)?,
-        image("core spread", |texel| texel.spread)?,
-    ])
 }

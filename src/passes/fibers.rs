@@ -32,6 +32,10 @@ pub struct FabricBuffers {
     pub core: [Image; 3],
     /// The physical model's tables, R and then TT: four floats an entry.
     pub scattering: Buffer,
+    /// Optical depth over the yarn's cross-section, by the light's angle: a volume.
+    pub self_shadow: Image,
+    /// Ambient light over the yarn's cross-section.
+    pub occlusion: Image,
 }
 
 /// What all shaders read of one frame, in the order of set 0's bindings.
@@ -42,6 +46,10 @@ pub struct FrameBuffers {
     pub statistics: Buffer,
     /// [`crate::gpu_types::Light`]s, at least one.
     pub lights: Buffer,
+    /// [`crate::gpu_types::ShadowView`]s, at least one.
+    pub shadow_views: Buffer,
+    /// What they see: two layers at least, so that its view is one of layers.
+    pub shadow_map: Image,
 }
 
 /// One pipeline's draws of one fabric.
@@ -61,6 +69,7 @@ pub struct FibersPass {
     frame: FrameBuffers,
     frame_set: DescriptorSet,
     core_sampler: Sampler,
+    table_sampler: Sampler,
     pipelines: HashMap<(Features, Strands), Pipeline>,
     fabrics: Vec<DescriptorSet>,
     draws: Vec<FabricDraw>,
@@ -75,15 +84,22 @@ impl FibersPass {
         let binding = |binding, kind| Binding { binding, kind, stages: STAGES };
         let storage = vk::DescriptorType::STORAGE_BUFFER;
         let uniform = vk::DescriptorType::UNIFORM_BUFFER;
-        let frame_bindings = [binding(0, uniform), binding(1, storage), binding(2, storage)];
+        let texture = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
+        let frame_kinds = [uniform, storage, storage, storage, texture];
+        let frame_bindings: [_; 5] = std::array::from_fn(|i| binding(i as u32, frame_kinds[i]));
         let frame_layout = DescriptorLayout::new(device, "frame", &frame_bindings)?;
-        let kind_of = |i| if i < 4 || i == 7 { storage } else { vk::DescriptorType::COMBINED_IMAGE_SAMPLER };
-        let fabric_bindings: [_; 8] = std::array::from_fn(|i| binding(i as u32, kind_of(i)));
+        let kind_of = |i| if i < 4 || i == 7 { storage } else { texture };
+        let fabric_bindings: [_; 10] = std::array::from_fn(|i| binding(i as u32, kind_of(i)));
         let fabric_layout = DescriptorLayout::new(device, "fabric", &fabric_bindings)?;
+        // Bits, not numbers: nothing to blend.
+        let nearest = SamplerInfo { filter: vk::Filter::NEAREST, ..Default::default() };
+        let exact = Sampler::new(device, "shadow map", &nearest)?;
         let resources = [
             (0, Resource::Uniform(&frame.frame)),
             (1, Resource::Storage(&frame.statistics)),
             (2, Resource::Storage(&frame.lights)),
+            (3, Resource::Storage(&frame.shadow_views)),
+            (4, Resource::Sampled(frame.shadow_map.view(), &exact)),
         ];
         // Along the core the texture tiles.
         let [repeat, clamp] = [vk::SamplerAddressMode::REPEAT, vk::SamplerAddressMode::CLAMP_TO_EDGE];
@@ -96,6 +112,7 @@ impl FibersPass {
             frame,
             frame_set,
             core_sampler: Sampler::new(device, "core", &sampling)?,
+            table_sampler: Sampler::new(device, "table", &SamplerInfo::default())?,
             pipelines: HashMap::new(),
             fabrics: Vec::new(),
             draws: Vec::new(),
@@ -132,6 +149,8 @@ impl FibersPass {
             (5, sampled(1)),
             (6, sampled(2)),
             (7, Resource::Storage(&buffers.scattering)),
+            (8, Resource::Sampled(buffers.self_shadow.view(), &self.table_sampler)),
+            (9, Resource::Sampled(buffers.occlusion.view(), &self.table_sampler)),
         ];
         let set = DescriptorSet::new(&self.fabric_layout, "fabric", &resources)?;
         let fabric = self.fabrics.len();
@@ -186,6 +205,7 @@ impl FibersPass {
             Use::Buffer(&self.frame.frame, Access::GRAPHICS_READ),
             Use::Buffer(&self.frame.lights, Access::GRAPHICS_READ),
             Use::Buffer(&self.frame.statistics, COUNTING),
+            Use::Image(&self.frame.shadow_map, ImageState::SAMPLED_GRAPHICS),
         ];
         let resolved = targets.multisampled.as_ref().filter(|_| last).map(|_| &targets.frame);
         if let Some(frame) = resolved {

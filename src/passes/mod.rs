@@ -4,6 +4,7 @@ pub mod draw_plan;
 pub mod fibers;
 mod image_kernel;
 pub mod resolve;
+pub mod shadow_map;
 pub mod strand_pipeline;
 pub mod targets;
 pub mod tonemap;

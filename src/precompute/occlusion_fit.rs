@@ -1,7 +1,6 @@
 //! Ambient occlusion by distance from the yarn's centre; twin of `glsl/shading/occlusion.glsl`.
 
 use super::optical_depth::optical_depth_mm;
-use crate::yarn::density::extinction_per_mm;
 use crate::yarn::params::YarnParams;
 use glam::{DMat4, DVec2, DVec4};
 use std::f64::consts::TAU;
@@ -34,8 +33,7 @@ fn radial_average(yarn: &YarnParams, share: f64, extinction_per_mm: f64) -> f64 
 
 /// Cubic in (distance / outer radius), constant term first, least-squares fitted to the radial average
 /// of the visibility (Wu & Yuksel 2019, Sec. 4.2). Where the cubic leaves [0, 1] the shader clamps it.
-pub fn fit_distance_occlusion(yarn: &YarnParams) -> DVec4 {
-    let extinction = extinction_per_mm(yarn);
+pub fn fit_distance_occlusion(yarn: &YarnParams, extinction_per_mm: f64) -> DVec4 {
     let (mut normal, mut right) = (DMat4::ZERO, DVec4::ZERO);
     for i in 0..DISTANCES {
         let d = f64::from(i) / f64::from(DISTANCES - 1);
@@ -43,7 +41,7 @@ pub fn fit_distance_occlusion(yarn: &YarnParams) -> DVec4 {
         let outer =
             DMat4::from_cols(powers * powers.x, powers * powers.y, powers * powers.z, powers * powers.w);
         normal += outer;
-        right += powers * radial_average(yarn, d, extinction);
+        right += powers * radial_average(yarn, d, extinction_per_mm);
     }
     normal.inverse() * right
 }
@@ -57,13 +55,14 @@ pub fn distance_occlusion(cubic: DVec4, distance: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::yarn::density::extinction_per_mm;
     use crate::yarn::presets;
 
     #[test]
     fn the_fit_is_close_to_the_integral_it_stands_for() {
         let yarn = presets::yarn("worsted_3ply").unwrap();
         let extinction = extinction_per_mm(&yarn);
-        let cubic = fit_distance_occlusion(&yarn);
+        let cubic = fit_distance_occlusion(&yarn, extinction);
         for i in 0..=20 {
             let d = f64::from(i) / 20.0;
             let (fitted, exact) = (distance_occlusion(cubic, d), radial_average(&yarn, d, extinction));

@@ -1,5 +1,6 @@
 //! Fiber density met by a straight line through a yarn's cross-section (Wu & Yuksel 2019, Sec. 4.1).
 
+use super::chord_table::ChordTable;
 use crate::math::quadrature::gauss_legendre;
 use crate::yarn::density::fiber_density;
 use crate::yarn::params::YarnParams;
@@ -9,42 +10,90 @@ use std::f64::consts::TAU;
 /// Integral over distance, from `position` outward along the unit `direction`, of the sum of all
 /// plies' densities p(R); in mm. Ply 0 lies at (ply offset, 0); all positions in mm.
 pub fn optical_depth_mm(yarn: &YarnParams, position: DVec2, direction: DVec2) -> f64 {
-    (0..yarn.ply_count).map(|ply| ply_depth_mm(yarn, ply, position, direction)).sum()
+    (0..yarn.ply_count)
+        .filter_map(|ply| PlyLine::new(yarn, ply, position, direction))
+        .map(|line| line.depth_mm(0.0, f64::INFINITY))
+        .sum()
 }
 
-fn ply_depth_mm(yarn: &YarnParams, ply: u32, position: DVec2, direction: DVec2) -> f64 {
-    // Into the ply's frame, scaled so that its ellipse is the unit circle.
-    let (sin, cos) = (TAU * f64::from(ply) / f64::from(yarn.ply_count)).sin_cos();
-    let turn = |v: DVec2| DVec2::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x);
-    let axes = DVec2::new(yarn.ellipse_short_mm, yarn.ellipse_long_mm);
-    let o = (turn(position) - DVec2::new(yarn.ply_offset_mm(), 0.0)) / axes;
-    let d = turn(direction) / axes;
+/// The part of a line that lies in one ply.
+pub struct PlyLine {
+    /// Where the line starts and how it goes on per mm, in the ply's frame scaled so that its ellipse is the
+    /// unit circle.
+    origin: DVec2,
+    step: DVec2,
+    /// Distance in mm along the line to where it passes the ply's centre.
+    nearest_mm: f64,
+    /// Half of the chord's length, and that in the scaled frame.
+    half_chord_mm: f64,
+    half_chord: f64,
+    beta: f64,
+    epsilon: f64,
+}
 
-    // |o + s d|^2 = 1; s is a distance in mm because `direction` is a unit vector.
-    let (a, b) = (d.length_squared(), o.dot(d));
-    let discriminant = b * b - a * (o.length_squared() - 1.0);
-    if discriminant <= 0.0 {
-        return 0.0;
-    }
-    let half_chord = discriminant.sqrt() / a;
-    let nearest = -b / a;
-    let (start, end) = ((nearest - half_chord).max(0.0), nearest + half_chord);
-    if end <= start {
-        return 0.0;
-    }
-    let density =
-        |s: f64| fiber_density((o + s * d).length().min(1.0), yarn.density_beta, yarn.density_epsilon);
-    // p has a kink where the line passes the centre and bends hardest at the rim: split there.
-    let turn = nearest.clamp(start, end);
-    [start, turn, end]
-        .windows(2)
-        .filter(|w| w[1] > w[0])
-        .map(|w| {
-            let rim = 0.9 * (w[1] - w[0]);
-            let cut = if w[0] == turn { w[0] + rim } else { w[1] - rim };
-            gauss_legendre(w[0], cut, density) + gauss_legendre(cut, w[1], density)
+impl PlyLine {
+    /// The line through `position` (mm) along the unit `direction`, both ways; `None` where it misses the ply.
+    pub fn new(yarn: &YarnParams, ply: u32, position: DVec2, direction: DVec2) -> Option<Self> {
+        let (sin, cos) = (TAU * f64::from(ply) / f64::from(yarn.ply_count)).sin_cos();
+        let turn = |v: DVec2| DVec2::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x);
+        let axes = DVec2::new(yarn.ellipse_short_mm, yarn.ellipse_long_mm);
+        let origin = (turn(position) - DVec2::new(yarn.ply_offset_mm(), 0.0)) / axes;
+        let step = turn(direction) / axes;
+
+        // |origin + s step|^2 = 1; s is a distance in mm because `direction` is a unit vector. The distance
+        // from the centre is taken as it is: b^2 - a c loses it in the difference.
+        let (a, b) = (step.length_squared(), origin.dot(step));
+        let closest_squared = step.perp_dot(origin).powi(2) / a;
+        let half_chord = (1.0 - closest_squared).max(0.0).sqrt();
+        (half_chord > 0.0).then(|| Self {
+            origin,
+            step,
+            nearest_mm: -b / a,
+            half_chord_mm: half_chord / a.sqrt(),
+            half_chord,
+            beta: yarn.density_beta,
+            epsilon: yarn.density_epsilon,
         })
-        .sum()
+    }
+
+    /// Integral of the ply's density over the distances `start_mm` to `end_mm` along the line.
+    pub fn depth_mm(&self, start_mm: f64, end_mm: f64) -> f64 {
+        let (near, half) = (self.nearest_mm, self.half_chord_mm);
+        let (start, end) = (start_mm.max(near - half), end_mm.min(near + half));
+        let density =
+            |s: f64| fiber_density((self.origin + s * self.step).length().min(1.0), self.beta, self.epsilon);
+        // p has a kink where the line passes the centre and bends hardest at the rim: split there.
+        let (mut sum, mut from) = (0.0, start);
+        for cut in [near - 0.9 * half, near, near + 0.9 * half, end] {
+            if from < cut.min(end) {
+                sum += gauss_legendre(from, cut.min(end), density);
+                from = cut.min(end);
+            }
+        }
+        sum
+    }
+
+    /// [`Self::depth_mm`] from the line's start onward, by a table of the yarn's chords.
+    pub fn depth_by(&self, chords: &ChordTable) -> f64 {
+        let from = (-self.nearest_mm / self.half_chord_mm).clamp(-1.0, 1.0);
+        self.half_chord_mm * chords.rest(self.half_chord, from)
+    }
+}
+
+/// Angles in radians, two for each ply, at which directions from `position` (mm) begin and cease to meet the
+/// ply; from inside of it, those at right angles to the way out. Between them what a line meets is smooth.
+pub fn ply_tangent_angles(yarn: &YarnParams, position: DVec2) -> Vec<f64> {
+    let axes = DVec2::new(yarn.ellipse_short_mm, yarn.ellipse_long_mm);
+    let of_ply = |ply: u32| {
+        let ply_angle = DVec2::from_angle(TAU * f64::from(ply) / f64::from(yarn.ply_count));
+        let origin = (DVec2::new(ply_angle.dot(position), ply_angle.perp_dot(position))
+            - DVec2::new(yarn.ply_offset_mm(), 0.0))
+            / axes;
+        let toward = -origin.try_normalize().unwrap_or(DVec2::X);
+        let half = (1.0 / origin.length().max(1.0)).asin();
+        [half, -half].map(|side| ply_angle.rotate(DVec2::from_angle(side).rotate(toward) * axes).to_angle())
+    };
+    (0..yarn.ply_count).flat_map(of_ply).collect()
 }
 
 #[cfg(test)]
@@ -94,5 +143,20 @@ mod tests {
         let depth = optical_depth_mm(&yarn, position, direction);
         assert!((depth / sum - 1.0).abs() < 2e-3, "{depth} vs {sum}");
         assert_eq!(optical_depth_mm(&yarn, DVec2::new(5.0, 0.0), DVec2::X), 0.0);
+    }
+
+    #[test]
+    fn directions_beside_a_tangent_just_meet_and_just_miss_the_ply() {
+        let yarn = presets::yarn("worsted_3ply").unwrap();
+        for position in [DVec2::new(2.0, 0.3), DVec2::new(-1.0, 1.5), DVec2::new(0.1, -3.0)] {
+            let angles = ply_tangent_angles(&yarn, position);
+            assert_eq!(angles.len(), 6);
+            for (ply, pair) in (0..).zip(angles.chunks_exact(2)) {
+                let meets =
+                    |angle: f64| PlyLine::new(&yarn, ply, position, DVec2::from_angle(angle)).is_some();
+                assert!(meets(pair[0] - 1e-6) && !meets(pair[0] + 1e-6), "ply {ply} from {position}");
+                assert!(meets(pair[1] + 1e-6) && !meets(pair[1] - 1e-6), "ply {ply} from {position}");
+            }
+        }
     }
 }

@@ -24,6 +24,14 @@ pub struct Features {
     pub diffuse: bool,
     /// Highlights are those of the physical model.
     pub physical: bool,
+    /// Yarns shadow one another.
+    pub shadow_map: bool,
+    /// Some light spans an angle, so that shadows are soft.
+    pub soft_shadows: bool,
+    /// Light is dimmed inside the yarn.
+    pub self_shadow: bool,
+    /// Ambient light is dimmed by place inside the yarn, not by distance.
+    pub texture_occlusion: bool,
     /// Ambient light exists.
     pub ambient: bool,
     /// Lights of which anything arrives.
@@ -68,6 +76,10 @@ pub enum SpecializationId {
     Environment = 14,
     Diffuse = 15,
     Physical = 16,
+    ShadowMap = 17,
+    SoftShadows = 18,
+    SelfShadow = 19,
+    TextureOcclusion = 20,
 }
 
 impl Features {
@@ -93,11 +105,16 @@ impl Features {
         let specular =
             lobes && (lit || ambient) || lit && shading.specular && !physical && some(fiber.specular());
         let diffuse = diffuse && (lit || ambient);
+        let soft = file.light().iter().any(|light| light.shines() && light.angular_size_deg > 0.0);
+        let dimmed = ambient || file.debug.view == DebugView::Occlusion;
         Self {
             basis: fabric.strands.basis,
             culling: file.quality.culling,
-            distance_occlusion: file.occlusion.mode == OcclusionMode::Distance
-                && (ambient || file.debug.view == DebugView::Occlusion),
+            distance_occlusion: dimmed && file.occlusion.mode == OcclusionMode::Distance,
+            texture_occlusion: dimmed && file.occlusion.mode == OcclusionMode::Texture,
+            shadow_map: lit && file.shadow.map,
+            soft_shadows: lit && file.shadow.map && soft,
+            self_shadow: file.shadow.inside && (lit || ambient && lobes),
             statistics,
             specular,
             diffuse,
@@ -117,7 +134,7 @@ impl Features {
 
     /// Identifier and value of every specialization constant, booleans as 0 and 1, for frames of `samples`
     /// samples a pixel.
-    pub fn specialization(&self, samples: u32) -> [(SpecializationId, u32); 17] {
+    pub fn specialization(&self, samples: u32) -> [(SpecializationId, u32); 21] {
         use SpecializationId as Id;
         [
             (Id::Basis, self.basis as u32),
@@ -137,6 +154,10 @@ impl Features {
             (Id::Environment, self.environment.into()),
             (Id::Diffuse, self.diffuse.into()),
             (Id::Physical, self.physical.into()),
+            (Id::ShadowMap, self.shadow_map.into()),
+            (Id::SoftShadows, self.soft_shadows.into()),
+            (Id::SelfShadow, self.self_shadow.into()),
+            (Id::TextureOcclusion, self.texture_occlusion.into()),
         ]
     }
 
@@ -167,10 +188,13 @@ impl Features {
             "ambient.radiance or environment_scale is 0, or shading.ambient false",
         );
         leave(
-            shaded && !self.distance_occlusion,
+            shaded && !self.distance_occlusion && !self.texture_occlusion,
             "occlusion",
             if self.ambient { "occlusion.mode is none" } else { "no ambient light to dim" },
         );
+        leave(shaded && light && !self.shadow_map, "shadow_map", "shadow.map is false");
+        leave(self.shadow_map && !self.soft_shadows, "soft_shadows", "no light has an angular_size_deg");
+        leave(shaded && (light || self.ambient) && !self.self_shadow, "self_shadow", "shadow.self is false");
         leave(!self.flyaways, "flyaways", "the yarn has neither loops nor hairs");
         leave(!self.core_fibers, "core_fibers", "debug.fibers is every: no fiber is left to stand for");
         leave(!self.regular_fibers, "regular_fibers", "debug.fibers is core");

@@ -1,6 +1,7 @@
 //! The scene file's keys and their defaults. Every key has one, so a bare yarn file is a scene.
 
 use super::light::{AmbientTable, LightTable};
+use super::shadow::ShadowTable;
 use crate::bsdf::khungurn::tabulated::DEFAULT_ENTRIES;
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor, value};
 use serde::{Deserialize, Serialize};
@@ -27,6 +28,8 @@ pub struct SceneFile {
     pub camera: CameraTable,
     /// How fibers are shaded.
     pub shading: ShadingTable,
+    /// Shadows between yarns and inside of them.
+    pub shadow: ShadowTable,
     /// Ambient occlusion inside the yarn.
     pub occlusion: OcclusionTable,
     /// What is traded for time.
@@ -94,11 +97,20 @@ pub struct ShadingTable {
     pub diffuse: bool,
     /// Light from everywhere.
     pub ambient: bool,
+    /// Factor of how much light the fibers take from one another inside a yarn, 0 to 1000. At 1 it is what follows
+    /// from their number and diameter.
+    pub extinction_scale: f64,
 }
 
 impl Default for ShadingTable {
     fn default() -> Self {
-        Self { model: ShadingModel::default(), specular: true, diffuse: true, ambient: true }
+        Self {
+            model: ShadingModel::default(),
+            specular: true,
+            diffuse: true,
+            ambient: true,
+            extinction_scale: 1.0,
+        }
     }
 }
 
@@ -128,6 +140,8 @@ pub enum OcclusionMode {
     /// A cubic of the distance from the yarn's centre.
     #[default]
     Distance,
+    /// A texture over the yarn's cross-section.
+    Texture,
     /// Not at all.
     None,
 }
@@ -154,6 +168,11 @@ pub struct QualityTable {
     pub core_texture_rows: u32,
     /// Entries of the tables of each of the physical model's lobes, 4 to 1024.
     pub scattering_entries: u32,
+    /// Texels across the table of light inside the yarn, four times its slices by the light's angle, 8 to 512;
+    /// 128 when absent.
+    pub self_shadow_texels: Option<u32>,
+    /// Texels across the texture of ambient light inside the yarn, 8 to 1024; 256 when absent.
+    pub occlusion_texels: Option<u32>,
     /// How far the straight pieces of a fiber may depart from its curve, in pixels, 0.001 to 100.
     pub subdivision_tolerance_px: f64,
     /// Most pieces a fiber is cut into over one piece of yarn, 1 to 64.
@@ -174,6 +193,8 @@ impl Default for QualityTable {
             core_visible_share: 0.02,
             core_texture_rows: 64,
             scattering_entries: DEFAULT_ENTRIES,
+            self_shadow_texels: None,
+            occlusion_texels: None,
             subdivision_tolerance_px: 0.2,
             max_subdivisions: 32,
             patches_per_draw: None,

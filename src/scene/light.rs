@@ -37,6 +37,8 @@ pub struct LightTable {
     pub inner_angle_deg: Option<f64>,
     /// Angle from the axis beyond which there is no light, 0.01 to 90 (spot).
     pub outer_angle_deg: Option<f64>,
+    /// Angle that the light spans as seen from the cloth, 0 to 60: how soft its shadows are.
+    pub angular_size_deg: f64,
 }
 
 /// Kinds of light.
@@ -88,6 +90,16 @@ impl LightTable {
         [self.inner_angle_deg.unwrap_or(0.0), self.outer_angle_deg.unwrap_or(45.0)]
     }
 
+    /// Tangent of half the angle that the light spans.
+    pub fn angular_tangent(&self) -> f64 {
+        (0.5 * self.angular_size_deg.to_radians()).tan()
+    }
+
+    /// Views from which its shadow map is drawn.
+    pub fn shadow_view_count(&self) -> u32 {
+        if self.kind == LightKind::Point { 6 } else { 1 }
+    }
+
     /// Whether the light is at a place.
     pub fn is_local(&self) -> bool {
         self.kind != LightKind::Directional
@@ -120,6 +132,7 @@ impl LightTable {
             let message = format!(": a {kind} light has no such key, only {}", keys.join(", "));
             return Err(KeyError::new(&path(key), message));
         }
+        KeyError::range(&path("angular_size_deg"), self.angular_size_deg, 0.0, 60.0)?;
         let strength = if self.is_local() { "intensity" } else { "irradiance" };
         KeyError::rgb(&path(strength), self.strength().to_array(), MAX_STRENGTH)?;
         let direction = self.direction();

@@ -48,6 +48,20 @@ impl SceneFile {
             return Err(KeyError::new("quality.core_texture_rows", message));
         }
         range("quality.scattering_entries", f64::from(self.quality.scattering_entries), 4.0, 1024.0)?;
+        range(
+            "quality.self_shadow_texels",
+            f64::from(self.quality.self_shadow_texels.unwrap_or(8)),
+            8.0,
+            512.0,
+        )?;
+        range(
+            "quality.occlusion_texels",
+            f64::from(self.quality.occlusion_texels.unwrap_or(8)),
+            8.0,
+            1024.0,
+        )?;
+        range("shading.extinction_scale", self.shading.extinction_scale, 0.0, 1e3)?;
+        self.shadow.check()?;
         range("quality.max_subdivisions", f64::from(self.quality.max_subdivisions), 1.0, 64.0)?;
         range("quality.patches_per_draw", f64::from(self.quality.patches_per_draw.unwrap_or(1)), 1.0, 1e9)
     }

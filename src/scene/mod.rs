@@ -9,6 +9,7 @@ pub mod keys;
 pub mod light;
 pub mod load;
 pub mod overrides;
+pub mod shadow;
 pub mod yarn_table;
 
 use crate::io::error::FileError;

@@ -17,4 +17,5 @@ pub mod ranges;
 pub mod strand;
 pub mod table;
 pub mod transport;
+pub mod tube;
 pub mod zhao;

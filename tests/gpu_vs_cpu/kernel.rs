@@ -5,8 +5,8 @@ use crate::scattering_tables;
 use bytemuck::{Pod, Zeroable};
 use worsted::shaders;
 use worsted::vulkan::{
-    Access, Binding, Buffer, ComputePipelineInfo, DescriptorLayout, DescriptorSet, DeviceChoice, MemoryKind,
-    Pipeline, Resource, SpecializationConstants, VulkanError, vk,
+    Access, Binding, Buffer, ComputePipelineInfo, DescriptorLayout, DescriptorSet, DeviceChoice, Image,
+    MemoryKind, Pipeline, Resource, Sampler, SpecializationConstants, VulkanError, vk,
 };
 
 /// Push constants of `glsl/test/kernel.glsl`.
@@ -25,6 +25,16 @@ pub fn path(function: &str) -> String {
 
 /// What the function returned for each row of argument words, `result_words` floats each.
 pub fn run(function: &str, rows: &[Vec<u32>], result_words: usize) -> Result<Vec<Vec<f32>>, VulkanError> {
+    run_with(function, rows, result_words, None)
+}
+
+/// The same of a function that reads a texture, which its kernel declares as binding 2.
+pub fn run_with(
+    function: &str,
+    rows: &[Vec<u32>],
+    result_words: usize,
+    texture: Option<(&Image, &Sampler)>,
+) -> Result<Vec<Vec<f32>>, VulkanError> {
     let device = shared(DeviceChoice::Auto);
     let input_words = rows.first().map_or(0, Vec::len);
     assert!(rows.iter().all(|row| row.len() == input_words), "{function}: rows differ in length");
@@ -35,12 +45,19 @@ pub fn run(function: &str, rows: &[Vec<u32>], result_words: usize) -> Result<Vec
     let tables = Buffer::upload(device, "scattering tables", storage, scattering_tables::all())?;
     let results = Buffer::new(device, "results", bytes, storage, MemoryKind::Readback)?;
 
-    let binding = |binding| Binding {
-        binding,
-        kind: vk::DescriptorType::STORAGE_BUFFER,
-        stages: vk::ShaderStageFlags::COMPUTE,
-    };
-    let layout = DescriptorLayout::new(device, function, &[binding(0), binding(1), binding(2)])?;
+    let binding = |binding, kind| Binding { binding, kind, stages: vk::ShaderStageFlags::COMPUTE };
+    let buffer = vk::DescriptorType::STORAGE_BUFFER;
+    let mut bindings = vec![binding(0, buffer), binding(1, buffer), binding(2, buffer)];
+    let mut bound = vec![
+        (0, Resource::Storage(&inputs)),
+        (1, Resource::Storage(&results)),
+        (2, Resource::Storage(&tables)),
+    ];
+    if let Some((image, sampler)) = texture {
+        bindings.push(binding(3, vk::DescriptorType::COMBINED_IMAGE_SAMPLER));
+        bound.push((3, Resource::Sampled(image.view(), sampler)));
+    }
+    let layout = DescriptorLayout::new(device, function, &bindings)?;
     let info = ComputePipelineInfo {
         name: function,
         spirv: shaders::get(&path(function)).expect("the completeness test names a missing kernel"),
@@ -50,8 +67,6 @@ pub fn run(function: &str, rows: &[Vec<u32>], result_words: usize) -> Result<Vec
         cache: None,
     };
     let pipeline = Pipeline::compute(device, &info)?;
-    let bound = [&inputs, &results, &tables].map(Resource::Storage);
-    let bound: Vec<_> = (0..).zip(bound).collect();
     let set = DescriptorSet::new(&layout, function, &bound)?;
     let shape =
         Shape { rows: rows.len() as u32, input_words: input_words as u32, result_words: result_words as u32 };

@@ -22,6 +22,8 @@ mod light_cases;
 mod math_cases;
 mod rejects;
 mod scattering_tables;
+mod shading_cases;
+mod table_reads;
 mod yarn_cases;
 
 use harness::{Case, Word, compare, twin_of};
@@ -38,6 +40,7 @@ fn cases() -> Vec<Case> {
     all.extend(bsdf_cases::cases());
     all.extend(light_cases::cases());
     all.extend(khungurn_cases::cases());
+    all.extend(shading_cases::cases());
     all
 }
 

@@ -5,6 +5,7 @@ use crate::text_of;
 use worsted::gpu_types::{FIBERS_PER_PATCH, LENGTH_STRIPE, RADIANCE_MAX};
 use worsted::math::curve::Basis;
 use worsted::math::{frame, tone};
+use worsted::precompute::self_shadow::SELF_SHADOW_LEAST_SIN;
 use worsted::scene::features::Features;
 use worsted::scene::file::DebugView;
 use worsted::scene::light::LIGHT_RADIUS;
@@ -139,7 +140,7 @@ fn plain_constants_are_equal() {
         ("VIEW_LEVEL_OF_DETAIL", DebugView::LevelOfDetail),
     ]
     .map(|(name, view)| (name, f64::from(view as u32)));
-    let files: [(&str, &[(&str, f64)]); 5] = [
+    let files: [(&str, &[(&str, f64)]); 6] = [
         (
             "glsl/shared/constants.glsl",
             &[
@@ -155,6 +156,7 @@ fn plain_constants_are_equal() {
         ("glsl/shared/debug_views.glsl", &views),
         ("glsl/lib/curve.glsl", &bases),
         ("glsl/lib/frame.glsl", &[("NO_DIRECTION", frame::NO_DIRECTION)]),
+        ("glsl/shading/self_shadow.glsl", &[("SELF_SHADOW_LEAST_SIN", SELF_SHADOW_LEAST_SIN)]),
         ("glsl/lib/tone.glsl", &[("TONE_KNEE", tone::TONE_KNEE), ("FILMIC_END", tone::FILMIC_END)]),
     ];
     for (file, rust) in files {

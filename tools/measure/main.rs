@@ -1,5 +1,5 @@
 //! Measures what level of detail and tables cost and save, and says whether their limits hold: `measure
-//! lod-error|lod-cost|dolly|turntable|tables`. Exit codes are those of `worsted`; 1 is a limit that does not hold.
+//! lod-error|lod-cost|dolly|turntable|tables|shadow-tables`. Exit codes are those of `worsted`; 1 is a limit that does not hold.
 
 mod dolly;
 mod lod_cost;
@@ -8,6 +8,7 @@ mod lod_error;
 mod looks;
 mod pictures;
 mod report;
+mod shadow_tables;
 mod stage;
 mod tables;
 mod turntable;
@@ -42,6 +43,8 @@ enum Command {
     Turntable(turntable::Options),
     /// Error of the tables of fiber scattering by their size. Needs no device.
     Tables,
+    /// Error of the self-shadow and occlusion tables against the integrals they stand for, by size.
+    ShadowTables(shadow_tables::Options),
 }
 
 fn main() -> ExitCode {
@@ -61,6 +64,7 @@ fn run(args: &Args) -> Result<(), Error> {
         Command::Dolly(options) => on_device(args, |stage| dolly::run(stage, options)),
         Command::Turntable(options) => on_device(args, |stage| turntable::run(stage, options)),
         Command::Tables => tables::run(),
+        Command::ShadowTables(options) => on_device(args, |stage| shadow_tables::run(stage, options)),
     }
 }
 

@@ -1,0 +1,123 @@
+//! Lights and what they see, in the device's words.
+
+use crate::gpu_types::{Light, ShadowView};
+use crate::scene::Scene;
+use crate::scene::camera::Camera;
+use crate::scene::light::{self, LightTable};
+use crate::scene::shadow::{self, Bounds, shadow_views};
+use crate::vulkan::{Buffer, Device, MemoryKind, VulkanError, vk};
+use glam::{DMat4, DVec3};
+use std::sync::Arc;
+
+/// What the pipelines and buffers of a scene have room for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LightRoom {
+    /// Lights that shine.
+    pub lights: usize,
+    /// Whether point and spot lights may be among them.
+    pub local: bool,
+    /// Views of the shadow map; 0 without one.
+    pub views: u32,
+}
+
+impl LightRoom {
+    /// What these lights need.
+    pub fn needed(tables: &[LightTable], shadows: bool) -> Self {
+        let shining = || tables.iter().filter(|light| light.shines());
+        let views = if shadows { shining().map(LightTable::shadow_view_count).sum() } else { 0 };
+        Self { lights: shining().count(), local: shining().any(LightTable::is_local), views }
+    }
+
+    /// One line that says why `needed` does not fit, if it does not.
+    pub fn lacks(&self, needed: &Self) -> Option<String> {
+        if needed.lights > self.lights {
+            let (room, found) = (self.lights, needed.lights);
+            return Some(format!("expected at most {room} that shine, as at first, found {found}"));
+        }
+        if needed.local && !self.local {
+            return Some("expected directional lights alone, as at first, found another".to_owned());
+        }
+        (needed.views > self.views).then(|| {
+            let (room, found) = (self.views, needed.views);
+            format!("expected lights with at most {room} shadow views, as at first, found {found}")
+        })
+    }
+
+    /// Buffers for the lights and for their views. A descriptor must be there even where nothing reads it: one
+    /// stands in.
+    ///
+    /// # Errors
+    /// Those of the device.
+    pub fn buffers(&self, device: &Arc<Device>) -> Result<[Buffer; 2], VulkanError> {
+        let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let bytes = |size: usize, count: usize| (size * count.max(1)) as u64;
+        let lights = bytes(size_of::<Light>(), self.lights);
+        let views = bytes(size_of::<ShadowView>(), self.views as usize);
+        Ok([
+            Buffer::new(device, "lights", lights, storage, MemoryKind::Upload)?,
+            Buffer::new(device, "shadow views", views, storage, MemoryKind::Upload)?,
+        ])
+    }
+
+    /// The lights that shine, as many as there is room for: the rest are dark.
+    pub fn lights(&self, tables: &[LightTable], origin_mm: DVec3) -> Vec<Light> {
+        let mut next_view = 0;
+        let light = |table: &LightTable| {
+            let light = light::Light::new(table, origin_mm);
+            let views = if self.views > 0 { table.shadow_view_count() } else { 0 };
+            next_view += views;
+            Light {
+                position: light.position.unwrap_or_default().as_vec3().to_array(),
+                is_local: light.position.is_some().into(),
+                toward: light.toward.as_vec3().to_array(),
+                cone_scale: light.cone_scale as f32,
+                strength: light.strength.as_vec3().to_array(),
+                cone_offset: light.cone_offset as f32,
+                shadow_view: next_view - views,
+                shadow_view_count: views,
+                angular_tangent: table.angular_tangent() as f32,
+                padding: 0.0,
+            }
+        };
+        let mut lights: Vec<Light> = tables.iter().filter(|table| table.shines()).map(light).collect();
+        lights.resize(self.lights, Light::default());
+        lights
+    }
+
+    /// What the lights see of the cloth that the camera sees, in the order of their views.
+    pub fn views(&self, scene: &Scene, camera: &Camera, cloth: Bounds) -> Vec<ShadowView> {
+        if self.views == 0 {
+            return Vec::new();
+        }
+        let resolution = scene.file.shadow.resolution;
+        let lights = scene.file.light();
+        let shining = lights.iter().filter(|light| light.shines());
+        shining
+            .flat_map(|light| shadow_views(light, scene.origin_mm, camera, cloth, resolution))
+            .map(|view| gpu_view(&view))
+            .collect()
+    }
+}
+
+fn gpu_view(view: &shadow::ShadowView) -> ShadowView {
+    let columns = |m: DMat4| m.as_mat4().to_cols_array_2d();
+    ShadowView {
+        clip_from_world: columns(view.clip_from_world),
+        depth_axis: view.depth_axis.as_vec4().to_array(),
+        toward: view.toward.as_vec4().to_array(),
+        texel: view.texel as f32,
+        padding: [0.0; 3],
+    }
+}
+
+/// The box around all yarns of a scene, their thickness included, relative to its origin.
+pub fn cloth_bounds(scene: &Scene) -> Bounds {
+    let nothing = (DVec3::splat(f64::INFINITY), DVec3::splat(f64::NEG_INFINITY));
+    scene.fabrics.iter().fold(nothing, |bounds, fabric| {
+        let radius = DVec3::splat(fabric.yarn.outer_radius_mm());
+        fabric
+            .hull_points()
+            .map(|p| p - scene.origin_mm)
+            .fold(bounds, |(low, high), p| (low.min(p - radius), high.max(p + radius)))
+    })
+}

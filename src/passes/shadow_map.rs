@@ -1,0 +1,184 @@
+//! Draws every yarn as a ribbon of its outer radius as each light sees it (Wu & Yuksel 2019, Sec. 4.1).
+
+use super::spirv;
+use super::strand_pipeline::specialization;
+use super::targets::DEPTH_FORMAT;
+use crate::graph::{Pass, Use};
+use crate::math::curve::Basis;
+use crate::scene::features::Features;
+use crate::vulkan::{
+    Access, Buffer, ColorTarget, Commands, DepthState, DepthTarget, DescriptorLayout, DescriptorSet, Device,
+    GraphicsPipelineInfo, Image, ImageInfo, ImageState, ImageView, Pipeline, Rendering, ShaderStage,
+    VulkanError, vk,
+};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Bits of a depth, and a piece's number plus one; 0 where there is nothing.
+const MAP_FORMAT: vk::Format = vk::Format::R32G32_UINT;
+
+/// The map: one layer for each view of each light.
+pub struct ShadowMap {
+    /// What shading reads.
+    pub image: Image,
+    depth: Option<Image>,
+    layers: Vec<ImageView>,
+    resolution: u32,
+}
+
+impl ShadowMap {
+    /// Makes a map of `resolution` texels a side with `views` layers. Without any, two texels stand in that no
+    /// shader reads.
+    ///
+    /// # Errors
+    /// A size beyond the device's limits, or no memory for it.
+    pub fn new(device: &Arc<Device>, resolution: u32, views: u32) -> Result<Self, VulkanError> {
+        use vk::ImageUsageFlags as Usage;
+        let resolution = if views == 0 { 1 } else { resolution };
+        let extent = [resolution, resolution, 1];
+        // A view of several layers is what the shader declares, also where there is but one.
+        let map = ImageInfo {
+            name: "shadow map",
+            format: MAP_FORMAT,
+            extent,
+            layers: views.max(2),
+            usage: Usage::COLOR_ATTACHMENT | Usage::SAMPLED,
+            ..Default::default()
+        };
+        let depth = ImageInfo {
+            name: "shadow depth",
+            format: DEPTH_FORMAT,
+            extent,
+            usage: Usage::DEPTH_STENCIL_ATTACHMENT,
+            ..Default::default()
+        };
+        let image = Image::new(device, &map)?;
+        let depth = (views > 0).then(|| Image::new(device, &depth)).transpose()?;
+        let layers = (0..views).map(|view| image.subview(0, view)).collect::<Result<_, _>>()?;
+        Ok(Self { image, depth, layers, resolution })
+    }
+}
+
+/// Push constants of `glsl/passes/shadow.vert`.
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+struct Constants {
+    view: u32,
+}
+
+/// One fabric's ribbons.
+struct Ribbons {
+    pipeline: Pipeline,
+    fabric: DescriptorSet,
+    pieces: u32,
+}
+
+/// The pass over the yarns of all fabrics.
+pub struct ShadowMapPass {
+    map: ShadowMap,
+    views: Buffer,
+    frame_set: Option<DescriptorSet>,
+    ribbons: Vec<Ribbons>,
+    pipelines: HashMap<Basis, Pipeline>,
+    corners: u32,
+}
+
+impl ShadowMapPass {
+    /// A pass that draws into `map` from `views`, each piece of yarn with `corners` corners.
+    pub fn new(map: ShadowMap, views: Buffer, corners: u32) -> Self {
+        Self { map, views, frame_set: None, ribbons: Vec::new(), pipelines: HashMap::new(), corners }
+    }
+
+    /// Adds a fabric of `pieces` pieces of yarn, with the layouts and sets that the fiber pass reads it by.
+    ///
+    /// # Errors
+    /// Those of the device.
+    pub fn add_fabric(
+        &mut self,
+        device: &Arc<Device>,
+        features: &Features,
+        layouts: &[&DescriptorLayout; 2],
+        sets: [&DescriptorSet; 2],
+        pieces: u32,
+    ) -> Result<(), VulkanError> {
+        let pipeline = match self.pipelines.get(&features.basis) {
+            Some(pipeline) => pipeline.clone(),
+            None => pipeline(device, features, layouts)?,
+        };
+        self.pipelines.insert(features.basis, pipeline.clone());
+        self.frame_set = Some(sets[0].clone());
+        self.ribbons.push(Ribbons { pipeline, fabric: sets[1].clone(), pieces });
+        Ok(())
+    }
+
+    /// Draws the first `views` views; none where nothing casts a shadow.
+    pub fn pass(&self, views: u32) -> Option<Pass<'_>> {
+        let depth = self.map.depth.as_ref().filter(|_| views > 0)?;
+        let uses = vec![
+            Use::Discard(&self.map.image, ImageState::COLOR_TARGET),
+            Use::Discard(depth, ImageState::DEPTH_TARGET),
+            Use::Buffer(&self.views, Access::GRAPHICS_READ),
+        ];
+        let record = move |commands: &Commands<'_>| {
+            for (view, layer) in self.map.layers.iter().enumerate().take(views as usize) {
+                let rendering = Rendering {
+                    extent: [self.map.resolution; 2],
+                    color: &[ColorTarget { view: layer, resolve: None, clear: Some([0.0; 4]), store: true }],
+                    depth: Some(DepthTarget { view: depth.view(), clear: Some(0.0), store: false }),
+                };
+                if view > 0 {
+                    commands.image_barrier(depth, ImageState::DEPTH_TARGET, ImageState::DEPTH_TARGET);
+                }
+                commands.render(&rendering, || self.draw(commands, view as u32))?;
+            }
+            Ok(())
+        };
+        Some(Pass { name: "shadow_map", uses, record: Box::new(record) })
+    }
+
+    fn draw(&self, commands: &Commands<'_>, view: u32) -> Result<(), VulkanError> {
+        let Some(frame_set) = &self.frame_set else { return Ok(()) };
+        for ribbons in &self.ribbons {
+            commands.bind_pipeline(&ribbons.pipeline);
+            commands.bind_sets(&ribbons.pipeline, &[frame_set, &ribbons.fabric]);
+            commands.push_constants(&ribbons.pipeline, &Constants { view })?;
+            commands.draw(self.corners, ribbons.pieces, 0, 0);
+        }
+        Ok(())
+    }
+}
+
+fn pipeline(
+    device: &Arc<Device>,
+    features: &Features,
+    layouts: &[&DescriptorLayout; 2],
+) -> Result<Pipeline, VulkanError> {
+    let one = vk::SampleCountFlags::TYPE_1;
+    let constants = specialization(features, one);
+    let stage = |stage, file| -> Result<_, VulkanError> {
+        Ok(ShaderStage { stage, spirv: spirv(file)?, constants: &constants })
+    };
+    let stages = [
+        stage(vk::ShaderStageFlags::VERTEX, "passes/shadow.vert")?,
+        stage(vk::ShaderStageFlags::FRAGMENT, "passes/shadow.frag")?,
+    ];
+    Pipeline::graphics(
+        device,
+        &GraphicsPipelineInfo {
+            name: "shadow map",
+            stages: &stages,
+            topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
+            color_formats: &[MAP_FORMAT],
+            depth: Some(DepthState {
+                format: DEPTH_FORMAT,
+                compare: vk::CompareOp::GREATER,
+                write: true,
+                bias: None,
+            }),
+            samples: one,
+            set_layouts: layouts,
+            push_constant_bytes: size_of::<Constants>() as u32,
+            ..Default::default()
+        },
+    )
+}
