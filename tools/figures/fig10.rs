@@ -12,6 +12,7 @@ use worsted::error::Error;
 use worsted::math::curve::Curve;
 use worsted::scene::Scene;
 use worsted::scene::file::{DebugTable, DisplayTable, FibersShown, OcclusionMode, OcclusionTable, SceneFile};
+use worsted::scene::shadow::ShadowTable;
 use worsted::vulkan::Device;
 use worsted::yarn::zhao::{FiberCurve, zhao_fibers};
 
@@ -55,6 +56,7 @@ fn file(name: &str, width_mm: f64) -> SceneFile {
         debug: DebugTable { fibers: FibersShown::Every, ..Default::default() },
         // The reference's fibers know no yarn to be occluded by: so neither do ours.
         occlusion: OcclusionTable { mode: OcclusionMode::None },
+        shadow: ShadowTable { map: false, inside: false, ..Default::default() },
         ..Default::default()
     }
 }

@@ -42,7 +42,7 @@ pub fn draw(device: &Arc<Device>) -> Result<(), Error> {
     let mut sheet = Sheet::new(PANELS.len() as u32 * step[0] - GAP, captions + CAPTION, PAPER);
     for (row, fiber) in FIBERS.into_iter().enumerate() {
         for (column, (caption, model, diffuse, ambient)) in PANELS.into_iter().enumerate() {
-            let shading = ShadingTable { model, specular: true, diffuse, ambient };
+            let shading = ShadingTable { model, diffuse, ambient, ..Default::default() };
             let [x, y] = [column as u32 * step[0], row as u32 * step[1]];
             sheet.place(&shoot(device, scene(fiber, shading)?, SIZE, 16)?, x, y);
             sheet.write(caption, x + 4, captions + CAPTION / 2, INK, Alignment::Left);

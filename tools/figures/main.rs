@@ -3,14 +3,19 @@
 mod demo;
 mod fig10;
 mod fig11;
+mod fig12;
 mod fig13;
 mod fig14;
 mod fig16;
 mod fig4;
 mod fig5;
+mod fig6;
+mod fig7;
+mod fig8;
 mod fig9;
 mod looks;
 mod presets;
+mod section;
 mod sheet;
 mod stage;
 
@@ -33,12 +38,16 @@ fn main() -> ExitCode {
 type Draw = fn(&Arc<Device>) -> Result<(), Error>;
 
 /// Every figure by its name.
-const FIGURES: [(&str, Draw); 10] = [
+const FIGURES: [(&str, Draw); 14] = [
     ("fig4", fig4::draw),
     ("fig5", fig5::draw),
+    ("fig6", fig6::draw),
+    ("fig7", fig7::draw),
+    ("fig8", fig8::draw),
     ("fig9", fig9::draw),
     ("fig10", fig10::draw),
     ("fig11", fig11::draw),
+    ("fig12", fig12::draw),
     ("fig13", fig13::draw),
     ("fig14", fig14::draw),
     ("fig16", fig16::draw),
