@@ -205,7 +205,7 @@ pub struct ShadowView {
     /// Width of a texel: mm for a directional light, mm per mm of depth for another.
     pub texel: f32,
     /// Not used.
-    pub padding: [f32; 3],
+    pub padding: [u32; 3],
 }
 
 /// What one picture of the scene needs; world space in mm, relative to the scene's origin.

@@ -23,7 +23,7 @@ Surface read_core(vec2 uv, float lod, uvec2 words) {
     float level = clamp(floor(fragment_place.z + uniform_from_word(words.x)), 0.0, float(CORE_LEVELS - 1u));
     float mip = max(floor(lod + uniform_from_word(words.y)), 0.0);
     vec3 place = vec3(uv, float(fragment_core.x * CORE_LEVELS) + level);
-    vec4 spread = SPECULAR || DISTANCE_OCCLUSION ? textureLod(core_spread, place, mip) : vec4(0.0);
+    vec4 spread = SPECULAR || DISTANCE_OCCLUSION || TEXTURE_OCCLUSION || SELF_SHADOW ? textureLod(core_spread, place, mip) : vec4(0.0);
     return surface_of(textureLod(core_normals, place, mip), textureLod(core_shape, place, mip), spread);
 }
 
@@ -81,12 +81,15 @@ void main() {
     strand.normals = surface.normals;
     // Heights are skewed: none lies above the ply's round.
     float top = sqrt(max(0.0, yarn.core_extent * yarn.core_extent - v * v));
-    float rough = clamp(top - surface.height, 0.0, surface.rough);
-    strand.distance = vec2(length(yarn_place(v, surface.height - rough)), length(yarn_place(v, surface.height + rough)));
+    // So two heights with their mean and deviation, the upper one no farther up than that.
+    float above = clamp(top - surface.height, 0.25 * surface.rough, surface.rough);
+    float below = above > 0.0 ? surface.rough * surface.rough / above : 0.0;
     // The ply's own frame, in the plane of side and toward.
     vec2 normal = direction_or(vec3(fragment_place.xy, 0.0), vec3(0.0, 1.0, 0.0)).xy;
-    vec2 place = yarn_place(v, surface.height);
-    strand.place = vec2(dot(place, normal), normal.x * place.y - normal.y * place.x);
+    mat2 ply_from_view = mat2(normal.x, -normal.y, normal.y, normal.x);
+    strand.near_place = ply_from_view * yarn_place(v, surface.height + above);
+    strand.far_place = ply_from_view * yarn_place(v, surface.height - below);
+    strand.far_share = above + below > 0.0 ? above / (above + below) : 0.0;
     strand.ply_normal = normal.x * side + normal.y * toward;
     strand.ply_binormal = normal.x * toward - normal.y * side;
     strand.piece = fragment_core.z;

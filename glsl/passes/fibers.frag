@@ -8,7 +8,7 @@
 layout(location = 0) centroid in vec3 fragment_position;
 layout(location = 1) centroid in vec3 fragment_tangent;
 layout(location = 2) centroid in vec3 fragment_side;
-layout(location = 3) centroid in vec2 fragment_place;
+layout(location = 3) centroid in vec3 fragment_place;
 layout(location = 4) flat in uvec3 fragment_fiber;  // index, what a debug view shows, piece of yarn
 layout(location = 5) noperspective in float fragment_across; // -1 to 1 inside
 layout(location = 6) centroid in vec3 fragment_normal;
@@ -16,16 +16,26 @@ layout(location = 7) centroid in vec3 fragment_binormal;
 
 layout(location = 0) out vec4 radiance;
 
+// Straight pieces cut a fiber's way around its ply short; its distance from the ply's centre stays true.
+vec2 round_place() {
+    vec2 ply = vec2(yarn.ply_offset / yarn.outer_radius, 0.0);
+    vec2 from_ply = fragment_place.xy - ply;
+    return ply + from_ply * (fragment_place.z / max(length(from_ply), 1e-6));
+}
+
 void main() {
     Strand strand;
     strand.position = fragment_position;
     strand.tangent = direction_or(fragment_tangent, vec3(1.0, 0.0, 0.0));
     strand.side = normal_perpendicular_to(strand.tangent, fragment_side);
     strand.toward = cross(strand.side, strand.tangent);
-    strand.distance = vec2(length(fragment_place));
-    strand.place = fragment_place;
-    strand.ply_normal = fragment_normal;
-    strand.ply_binormal = fragment_binormal;
+    strand.near_place = round_place();
+    strand.far_place = strand.near_place;
+    strand.far_share = 0.0;
+    // Between the ends of a straight piece they are neither of length 1 nor quite perpendicular.
+    vec3 axis = direction_or(cross(fragment_normal, fragment_binormal), vec3(1.0, 0.0, 0.0));
+    strand.ply_normal = normal_perpendicular_to(axis, fragment_normal);
+    strand.ply_binormal = cross(axis, strand.ply_normal);
     strand.piece = fragment_fiber.z;
     strand.spread = vec3(0.0);
     strand.normals = fiber_normals(covered_values(fragment_across, gl_SampleMaskIn[0]));

@@ -10,7 +10,7 @@ layout(triangle_strip, max_vertices = 4) out;
 
 layout(location = 0) in vec3 position_world[];
 layout(location = 1) in vec4 tangent_world[];
-layout(location = 2) in vec2 section_place[];
+layout(location = 2) in vec3 section_place[];
 layout(location = 3) in uint fiber_index[];
 layout(location = 4) in ivec4 joining[];
 layout(location = 5) in vec3 ply_normal[];
@@ -21,7 +21,7 @@ layout(location = 7) in uint piece[];
 layout(location = 0) centroid out vec3 fragment_position;
 layout(location = 1) centroid out vec3 fragment_tangent;
 layout(location = 2) centroid out vec3 fragment_side;
-layout(location = 3) centroid out vec2 fragment_place;     // in the yarn's cross-section, as a share of outer_radius
+layout(location = 3) centroid out vec3 fragment_place;     // section_place as shares of outer_radius
 layout(location = 4) flat out uvec3 fragment_fiber;  // index, what a debug view shows, piece of yarn
 layout(location = 5) noperspective out float fragment_across; // -1 to 1
 layout(location = 6) centroid out vec3 fragment_normal;       // of the ply, and its binormal

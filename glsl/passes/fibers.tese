@@ -17,7 +17,7 @@ layout(location = 4) patch in uvec2 patch_mask;
 
 layout(location = 0) out vec3 position_world;
 layout(location = 1) out vec4 tangent_world;   // a: share of the fiber's width
-layout(location = 2) out vec2 section_place;    // in the yarn's cross-section along its ply's normal and binormal, mm
+layout(location = 2) out vec3 section_place;   // in the yarn's cross-section along its ply's normal and binormal; from the ply's centre; mm
 layout(location = 3) out uint fiber_index;
 layout(location = 4) out ivec4 joining;        // entry, exit, what a debug view shows, place along the piece
 layout(location = 5) out vec3 ply_normal;
@@ -59,6 +59,7 @@ void main() {
     ply_normal = f.ply_normal;
     ply_binormal = f.ply_binormal;
     vec3 from_center = f.position - f.yarn_center;
-    section_place = vec2(dot(from_center, ply_normal), dot(from_center, ply_binormal));
+    section_place.xy = vec2(dot(from_center, ply_normal), dot(from_center, ply_binormal));
+    section_place.z = distance(f.position, f.ply_center);
     piece = patch_segment;
 }

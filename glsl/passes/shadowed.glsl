@@ -3,6 +3,7 @@
 #define WORSTED_SHADOWED
 
 #include "bindings.glsl"
+#include "../lib/frame.glsl"
 #include "../shading/shadow_map.glsl"
 
 layout(set = 0, binding = 4) uniform usampler2DArray shadow_map;
@@ -58,9 +59,9 @@ float softly_unhidden(vec2 place, float layer, float depth, uint piece, float wi
     return sum / float(SHADOW_TAPS);
 }
 
-// Share of a light that no other yarn takes from a fiber at `position` in piece `segment` of a yarn that runs
-// along `tangent_yarn`.
-float shadow_map_light(Light light, vec3 position, vec3 to_light, vec3 tangent_yarn, uint segment) {
+// Share of a light that no other yarn takes from a fiber at `position`, `from_center` mm from the centre of its
+// yarn, in piece `segment`.
+float shadow_map_light(Light light, vec3 position, float from_center, vec3 to_light, uint segment) {
     uint index = light.shadow_view;
     if (light.shadow_view_count > 1u) {
         index += shadow_face(position - light.position);
@@ -72,7 +73,12 @@ float shadow_map_light(Light light, vec3 position, vec3 to_light, vec3 tangent_y
         return 1.0;
     }
     float depth = place.z - SHADOW_BIAS * yarn.outer_radius;
-    float window = shadow_window(dot(tangent_yarn, to_light), yarn.outer_radius, segments[segment].length_mm);
+    // A hair stands farther out than the tube, behind more of it.
+    float radius = max(yarn.outer_radius, from_center);
+    // The piece's middle points lie along it in every basis.
+    uint first = segments[segment].first_point;
+    vec3 along = direction_or(control_points[first + 2u].position - control_points[first + 1u].position, to_light);
+    float window = shadow_window(dot(along, to_light), radius, segments[segment].length_mm);
     uint piece = yarn.first_piece + segment;
     if (!SOFT_SHADOWS || light.angular_tangent <= 0.0) {
         return unhidden(place.xy, float(index), depth, piece, window);

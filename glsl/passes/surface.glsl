@@ -63,8 +63,11 @@ struct Strand {
     vec3 tangent;
     vec3 side;       // unit, perpendicular to the tangent
     vec3 toward;     // unit, perpendicular to both, toward the viewer
-    vec2 distance;   // from the yarn's centre, as a share of outer_radius: a deviation nearer and farther than the mean
-    vec2 place;      // in the yarn's cross-section along its ply's normal and binormal, as a share of outer_radius
+    // In the yarn's cross-section along its ply's normal and binormal, as a share of outer_radius: what is seen lies
+    // at many depths, and two places stand for them.
+    vec2 near_place;
+    vec2 far_place;
+    float far_share; // of the light that the second stands for
     vec3 ply_normal;
     vec3 ply_binormal;
     uint piece;      // of yarn
@@ -77,6 +80,8 @@ struct Strand {
 // Wu & Yuksel 2019, Fig. 4: migration dark, loops green, hairs red; core fibers blue.
 const vec3 KIND_COLORS[4] = vec3[4](vec3(0.08), vec3(0.1, 0.75, 0.15), vec3(0.85, 0.08, 0.05), vec3(0.1, 0.2, 0.6));
 
+// Radiance per irradiance below which a fiber is black: a thousandth of what a grey one sends back.
+const float LEAST_SCATTERED = 1e-4;
 // Below this share of a light nobody looks whether another yarn takes it as well: a five-hundredth of a stop.
 const float LEAST_SHARE = 1e-3;
 
@@ -89,21 +94,38 @@ Scattering yarn_scattering() {
                       yarn.k_tt, yarn.n_tt, yarn.scattering_entries);
 }
 
+// Share of light from a direction in the yarn's cross-section that comes through to a place there.
+float through_yarn_to(vec2 place, vec2 light) {
+    // Every ply sees the others alike: this one stands for ply 0.
+    uvec2 size = uvec2(textureSize(self_shadow_table, 0).xz);
+    vec3 at = self_shadow_place(place, light, yarn.ply_count, size);
+    return self_shadow_light(self_shadow_depth(self_shadow_table, at), yarn.diffuse.a, min(1.0, length(light)));
+}
+
 // Share of the light from `direction` that its own yarn lets through to a fiber.
 float through_yarn(Strand strand, vec3 direction) {
     vec2 light = vec2(dot(strand.ply_normal, direction), dot(strand.ply_binormal, direction));
-    // Every ply sees the others alike: this one stands for ply 0.
-    uvec2 size = uvec2(textureSize(self_shadow_table, 0).xz);
-    vec3 place = self_shadow_place(strand.place, light, yarn.ply_count, size);
-    return self_shadow_light(self_shadow_depth(self_shadow_table, place), yarn.diffuse.a, min(1.0, length(light)));
+    float near_share = through_yarn_to(strand.near_place, light);
+    if (strand.far_share == 0.0) {
+        return near_share;
+    }
+    return mix(near_share, through_yarn_to(strand.far_place, light), strand.far_share);
+}
+
+// Share of ambient light that comes through to a place in the yarn's cross-section.
+float visible_from(vec2 place) {
+    if (TEXTURE_OCCLUSION) {
+        return texture_occlusion(occlusion_table, occlusion_place(place, uint(textureSize(occlusion_table, 0).x)));
+    }
+    return distance_occlusion(yarn.occlusion, length(place));
 }
 
 // Share of a light that neither its own yarn nor another takes from a fiber.
 float unshadowed(Strand strand, Light light, vec3 to_light) {
     float share = SELF_SHADOW ? through_yarn(strand, to_light) : 1.0;
     if (SHADOW_MAP && share > LEAST_SHARE && light.shadow_view_count > 0u) {
-        vec3 tangent_yarn = cross(strand.ply_normal, strand.ply_binormal);
-        share *= shadow_map_light(light, strand.position, to_light, tangent_yarn, strand.piece);
+        float from_center = length(strand.near_place) * yarn.outer_radius;
+        share *= shadow_map_light(light, strand.position, from_center, to_light, strand.piece);
     }
     return share;
 }
@@ -167,9 +189,10 @@ vec3 shade(Strand strand, vec3 to_eye, float visibility) {
     for (uint i = 0u; i < LIGHT_COUNT; ++i) {
         Arriving arriving = LOCAL_LIGHTS ? light_at(lights[i], strand.position)
                                          : Arriving(lights[i].toward, lights[i].strength);
-        float share = unshadowed(strand, lights[i], arriving.to_light);
-        if (share > 0.0) {
-            sum += scatter(strand, arriving.to_light, to_eye) * (share * arriving.irradiance);
+        vec3 scattered = scatter(strand, arriving.to_light, to_eye);
+        // Most of a yarn faces away from a light: nobody looks there what shadows it.
+        if (max(scattered.r, max(scattered.g, scattered.b)) > LEAST_SCATTERED) {
+            sum += scattered * arriving.irradiance * unshadowed(strand, lights[i], arriving.to_light);
         }
     }
     if (AMBIENT) {
@@ -190,14 +213,9 @@ float rounding(vec3 normal, vec3 to_eye) {
 
 vec4 strand_color(Strand strand) {
     vec3 to_eye = direction_or(frame.eye_world.xyz - strand.position, vec3(0.0, 0.0, 1.0));
-    // What is seen lies at many depths: two stand for them.
     float visibility = 1.0;
-    if (TEXTURE_OCCLUSION) {
-        vec2 place = occlusion_place(strand.place, uint(textureSize(occlusion_table, 0).x));
-        visibility = texture_occlusion(occlusion_table, place);
-    } else if (DISTANCE_OCCLUSION) {
-        visibility = 0.5 * (distance_occlusion(yarn.occlusion, strand.distance.x)
-                            + distance_occlusion(yarn.occlusion, strand.distance.y));
+    if (DISTANCE_OCCLUSION || TEXTURE_OCCLUSION) {
+        visibility = mix(visible_from(strand.near_place), visible_from(strand.far_place), strand.far_share);
     }
     vec3 normal = strand.normals.x * strand.side + strand.normals.y * strand.toward;
     vec3 color;

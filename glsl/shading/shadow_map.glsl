@@ -1,4 +1,4 @@
-// Shadows between yarns (Wu & Yuksel 2019, Sec. 4.1); twin: src/passes/shadow_light.rs.
+// Shadows between yarns (Wu & Yuksel 2019, Sec. 4.1); twin: src/scene/shadow_light.rs.
 #ifndef WORSTED_SHADOW_MAP
 #define WORSTED_SHADOW_MAP
 
@@ -7,6 +7,8 @@
 
 // Largest cotangent of the angle between light and yarn for which a yarn's own tube is told from others.
 const float SHADOW_STEEPEST = 24.0;
+// Room around that, for texels beside the one that a fiber falls on.
+const float SHADOW_MARGIN = 1.3;
 // How much nearer to the light than a fiber a tube's centre must be to hide it, in the fiber's yarn's radii:
 // tubes that touch are at least one apart where one lies on the other.
 const float SHADOW_BIAS = 0.5;
@@ -21,7 +23,8 @@ const float GOLDEN_ANGLE = 2.39996323;
 float shadow_window(float along, float radius, float piece_length) {
     float across = sqrt(max(1.0 - along * along, 0.0));
     float cotangent = min(abs(along) / max(across, 1e-6), SHADOW_STEEPEST);
-    return 1.0 + 2.0 * radius * (1.0 + cotangent) / max(piece_length, 1e-6);
+    // Along the yarn a fiber on the far side lies one cotangent from the ribbon, and a cap reaches another.
+    return 1.0 + 2.0 * radius * (1.0 + SHADOW_MARGIN * cotangent) / max(piece_length, 1e-6);
 }
 
 // Place in the map's texels (the first one's centre is at 0.5), and depth in mm away from the light.
@@ -46,12 +49,12 @@ uint shadow_face(vec3 from_light) {
 // Whether what the map holds hides a fiber of piece `piece` (counted through all yarns) at `depth`. A texel is the
 // bits of a depth, and a piece's number plus one or 0 for nothing.
 bool shadow_hides(uvec2 texel, float depth, uint piece, float window) {
-    if (texel.y == 0u || uintBitsToFloat(texel.x) >= depth) {
+    if (texel.y == 0u) {
         return false;
     }
     uint other = texel.y - 1u;
     uint apart = other > piece ? other - piece : piece - other;
-    return float(apart) > window;
+    return uintBitsToFloat(texel.x) < depth && float(apart) > window;
 }
 
 // Places on a disk of radius 1, equally dense, turned by `turn` radians (Vogel 1979).

@@ -105,7 +105,7 @@ struct ShadowView {
     vec4 depth_axis;        // depth in mm away from the light is xyz . p + w
     vec4 toward;            // toward the light: xyz - w p
     float texel;            // its width: mm for a directional light, mm per mm of depth for another
-    float padding[3];
+    uint padding[3];
 };
 
 // What one picture of the scene needs. World space: mm, relative to the scene's origin.

@@ -19,7 +19,8 @@ float tube_row(uint row) {
 // `toward` a unit vector toward the light. The ribbon runs through the yarn's centre, so that what it hides
 // lies a radius behind the tube's surface: a tube never hides its own surface from a light that it faces.
 vec3 tube_corner(vec3 center, vec3 tangent, vec3 toward, float radius, uint row, float edge) {
-    vec3 side = strip_side(tangent, toward);
+    // Where the yarn points at the light its side is rounding, that may point anywhere.
+    vec3 side = normal_perpendicular_to(toward, strip_side(tangent, toward));
     vec3 along = cross(toward, side);
     bool first = row == 0u;
     bool last = row == TUBE_ROWS - 1u;

@@ -106,7 +106,7 @@ fn gpu_view(view: &shadow::ShadowView) -> ShadowView {
         depth_axis: view.depth_axis.as_vec4().to_array(),
         toward: view.toward.as_vec4().to_array(),
         texel: view.texel as f32,
-        padding: [0.0; 3],
+        padding: [0; 3],
     }
 }
 

@@ -59,11 +59,11 @@ impl ShadowMap {
     }
 }
 
-/// Push constants of `glsl/passes/shadow.vert`.
+/// Push constants of `glsl/passes/shadow_map.vert`.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 struct Constants {
-    view: u32,
+    view_index: u32,
 }
 
 /// One fabric's ribbons.
@@ -136,12 +136,12 @@ impl ShadowMapPass {
         Some(Pass { name: "shadow_map", uses, record: Box::new(record) })
     }
 
-    fn draw(&self, commands: &Commands<'_>, view: u32) -> Result<(), VulkanError> {
+    fn draw(&self, commands: &Commands<'_>, view_index: u32) -> Result<(), VulkanError> {
         let Some(frame_set) = &self.frame_set else { return Ok(()) };
         for ribbons in &self.ribbons {
             commands.bind_pipeline(&ribbons.pipeline);
             commands.bind_sets(&ribbons.pipeline, &[frame_set, &ribbons.fabric]);
-            commands.push_constants(&ribbons.pipeline, &Constants { view })?;
+            commands.push_constants(&ribbons.pipeline, &Constants { view_index })?;
             commands.draw(self.corners, ribbons.pieces, 0, 0);
         }
         Ok(())
@@ -159,8 +159,8 @@ fn pipeline(
         Ok(ShaderStage { stage, spirv: spirv(file)?, constants: &constants })
     };
     let stages = [
-        stage(vk::ShaderStageFlags::VERTEX, "passes/shadow.vert")?,
-        stage(vk::ShaderStageFlags::FRAGMENT, "passes/shadow.frag")?,
+        stage(vk::ShaderStageFlags::VERTEX, "passes/shadow_map.vert")?,
+        stage(vk::ShaderStageFlags::FRAGMENT, "passes/shadow_map.frag")?,
     ];
     Pipeline::graphics(
         device,

@@ -132,7 +132,7 @@ mod tests {
         );
         let other = {
             let yarn = presets::yarn("mohair").unwrap();
-            bake_occlusion_table(&yarn, extinction_per_mm(&yarn), extinction_per_mm(&yarn), 64)
+            bake_occlusion_table(&yarn, extinction_per_mm(&yarn), 64)
         };
         assert!(error_of(&other, &yarn, 2000).worst > 5.0 * OCCLUSION_LIMIT);
     }

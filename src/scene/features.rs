@@ -212,6 +212,7 @@ impl Features {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::light::LightTable;
 
     fn features(edit: impl FnOnce(&mut SceneFile, &mut Fabric)) -> Features {
         let mut file = SceneFile::default();
@@ -223,7 +224,50 @@ mod tests {
     #[test]
     fn a_default_scene_leaves_out_only_what_it_lacks() {
         let out = features(|_, _| {}).left_out();
-        assert_eq!(out.keys().copied().collect::<Vec<_>>(), ["environment", "local_lights", "statistics"]);
+        let expected = ["environment", "local_lights", "self_shadow", "shadow_map", "statistics"];
+        assert_eq!(out.keys().copied().collect::<Vec<_>>(), expected);
+    }
+
+    #[test]
+    fn shadows_and_occlusion_are_there_only_where_they_dim_something() {
+        let shadowed = |edit: fn(&mut SceneFile)| {
+            features(|file, _| {
+                (file.shadow.map, file.shadow.inside) = (true, true);
+                edit(file);
+            })
+        };
+        let all = shadowed(|_| {});
+        assert!(all.shadow_map && all.self_shadow && all.distance_occlusion && !all.texture_occlusion);
+        let out = |edit: fn(&mut SceneFile)| {
+            let features = shadowed(edit);
+            (features, features.left_out())
+        };
+        let (bare, why) = out(|file| (file.shadow.map, file.shadow.inside) = (false, false));
+        assert!(!bare.shadow_map && !bare.self_shadow);
+        assert_eq!((why["shadow_map"], why["self_shadow"]), ("shadow.map is false", "shadow.self is false"));
+        assert!(!why.contains_key("soft_shadows"), "what is not there cannot be soft");
+        let sized: fn(&mut SceneFile) = |file| {
+            file.light = Some(vec![LightTable { angular_size_deg: 1.0, ..Default::default() }]);
+        };
+        let (soft, why) = out(sized);
+        assert!(soft.soft_shadows && !why.contains_key("soft_shadows"));
+        let dark = shadowed(|file| {
+            let none = LightTable { angular_size_deg: 1.0, irradiance: Some([0.0; 3]), ..Default::default() };
+            file.light = Some(vec![none]);
+        });
+        assert!(!dark.shadow_map && !dark.soft_shadows && dark.self_shadow, "it dims what passes the yarn");
+        let matte = shadowed(|file| {
+            file.light = Some(Vec::new());
+            file.shading.model = ShadingModel::Simple;
+        });
+        assert!(matte.ambient && !matte.self_shadow, "uniform light has no direction to dim");
+        let (texture, why) = out(|file| file.occlusion.mode = OcclusionMode::Texture);
+        assert!(texture.texture_occlusion && !texture.distance_occlusion && !why.contains_key("occlusion"));
+        let (none, why) = out(|file| file.occlusion.mode = OcclusionMode::None);
+        assert!(!none.texture_occlusion && !none.distance_occlusion);
+        assert_eq!(why["occlusion"], "occlusion.mode is none");
+        let (view, _) = out(|file| file.debug.view = DebugView::Normal);
+        assert!(!view.shadow_map && !view.self_shadow && !view.distance_occlusion);
     }
 
     #[test]

@@ -20,6 +20,8 @@ fn every_kind_has_its_keys_and_no_others() {
         format!("kind = 'point'\n{place}intensity = [1, 2, 3]"),
         format!("kind = 'spot'\n{place}direction = [0, -1, 0]\ninner_angle_deg = 10\nouter_angle_deg = 20"),
         format!("kind = 'spot'\n{place}outer_angle_deg = 90"),
+        "angular_size_deg = 60".to_owned(),
+        format!("kind = 'point'\n{place}angular_size_deg = 0.5"),
     ] {
         assert_eq!(check_lights(&[table(&good)]), Ok(()), "{good}");
     }
@@ -46,6 +48,9 @@ fn every_kind_has_its_keys_and_no_others() {
             "light.1.inner_angle_deg = 45: allowed is 0 to below outer_angle_deg = 45",
         ),
         ("kind = 'spot'\nposition_mm = [0, 0, 0]\ninner_angle_deg = nan", "light.1.inner_angle_deg = NaN"),
+        ("angular_size_deg = 61", "light.1.angular_size_deg = 61: allowed is 0 to 60"),
+        ("angular_size_deg = -1", "light.1.angular_size_deg = -1: allowed is 0 to 60"),
+        ("kind = 'point'\nangular_size_deg = nan", "light.1.angular_size_deg = NaN"),
     ] {
         let message = refused(text);
         assert!(message.starts_with(expected) && !message.contains('\n'), "{message}");
@@ -61,6 +66,15 @@ fn a_light_of_any_size_of_direction_is_a_unit_vector() {
         let light = Light::new(&table(&format!("direction = {direction}")), DVec3::ZERO);
         assert!((light.toward.length() - 1.0).abs() < 1e-12, "{direction}: {}", light.toward);
     }
+}
+
+#[test]
+fn a_light_spans_the_angle_it_says_and_has_the_views_of_its_kind() {
+    assert_eq!(table("").angular_tangent(), 0.0);
+    // Half of what it spans, on either side of the line to its middle.
+    assert!((table("angular_size_deg = 60").angular_tangent() - 1.0 / 3.0_f64.sqrt()).abs() < 1e-12);
+    let views = |kind: &str| table(&format!("kind = '{kind}'")).shadow_view_count();
+    assert_eq!(["directional", "spot", "point"].map(views), [1, 1, 6]);
 }
 
 #[test]

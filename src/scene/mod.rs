@@ -10,6 +10,7 @@ pub mod light;
 pub mod load;
 pub mod overrides;
 pub mod shadow;
+pub mod shadow_light;
 pub mod yarn_table;
 
 use crate::io::error::FileError;

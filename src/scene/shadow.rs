@@ -28,8 +28,9 @@ pub struct ShadowTable {
 }
 
 impl Default for ShadowTable {
+    /// None: far away, core fibers do not yet keep the mean color of shadowed fibers within 3%.
     fn default() -> Self {
-        Self { map: true, inside: true, resolution: 1024 }
+        Self { map: false, inside: false, resolution: 1024 }
     }
 }
 
@@ -196,8 +197,9 @@ mod tests {
             let clip = view.clip_from_world.project_point3(DVec3::from_array(target));
             assert!(clip.truncate().abs().max_element() < 1.0 && (0.0..1.0).contains(&clip.z), "{clip}");
         }
-        // Close up the same texels cover less cloth.
-        assert!(view(&camera([0.0; 3], 30.0)).texel < 0.3 * view(&camera([0.0; 3], 400.0)).texel);
+        // Close up the same texels cover less cloth: what is seen, and what of it the slanting light stretches.
+        let texel = |distance_mm| view(&camera([0.0; 3], distance_mm)).texel;
+        assert!(texel(30.0) < 0.4 * texel(400.0) && texel(10.0) < 0.2 * texel(400.0));
     }
 
     #[test]

@@ -1,15 +1,16 @@
 //! A yarn as a light sees it: a ribbon as wide as the tube around all of its plies; twin of
 //! `glsl/yarn/tube.glsl`.
 
+use crate::math::frame::normal_perpendicular_to;
 use crate::math::strip::strip_side;
 use glam::DVec3;
 
-/// Straight pieces that a piece of yarn is drawn with; `TUBE_STEPS` there.
+/// Straight pieces that a piece of yarn is drawn with; `TUBE_STEPS` in `glsl/shared/constants.glsl`.
 pub const TUBE_STEPS: u32 = 3;
 /// Rows of two corners: at the ends of these pieces, and one beyond either end of the piece of yarn.
 pub const TUBE_ROWS: u32 = TUBE_STEPS + 3;
 /// Half-width of the ends' caps as a share of the radius: of an octagon around the tube's round end.
-const TUBE_CAP: f64 = std::f64::consts::SQRT_2 - 1.0;
+pub const TUBE_CAP: f64 = std::f64::consts::SQRT_2 - 1.0;
 
 /// t of a row on its piece of yarn.
 pub fn tube_row(row: u32) -> f64 {
@@ -20,7 +21,8 @@ pub fn tube_row(row: u32) -> f64 {
 /// `toward` a unit vector toward the light. The ribbon runs through the yarn's centre, so that what it hides
 /// lies a radius behind the tube's surface: a tube never hides its own surface from a light that it faces.
 pub fn tube_corner(center: DVec3, tangent: DVec3, toward: DVec3, radius: f64, row: u32, edge: f64) -> DVec3 {
-    let side = strip_side(tangent, toward);
+    // Where the yarn points at the light its side is rounding, that may point anywhere.
+    let side = normal_perpendicular_to(toward, strip_side(tangent, toward));
     let along = toward.cross(side);
     let (half_width, beyond) = match row {
         0 => (TUBE_CAP, -1.0),
@@ -53,5 +55,19 @@ mod tests {
     fn a_yarn_that_points_at_the_light_is_as_wide_as_ever() {
         let corner = tube_corner(DVec3::ZERO, DVec3::Z, DVec3::Z, 1.0, 1, 1.0);
         assert!((corner.length() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_ribbon_faces_the_light_where_its_side_is_rounding() {
+        let toward = DVec3::new(0.48, -0.6, 0.64);
+        for angle in (8..=17).map(|digits| 10_f64.powi(-digits)) {
+            for tangent in [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| (toward + angle * axis).normalize()) {
+                let corner = tube_corner(DVec3::ZERO, tangent, toward, 1.0, 0, 1.0);
+                assert!(
+                    corner.dot(toward).abs() < 1e-12 && corner.length() > 1.0 - 1e-12,
+                    "{angle}: {corner}"
+                );
+            }
+        }
     }
 }

@@ -31,6 +31,7 @@ fn random_light(random: &mut Random) -> Light {
         position_mm: local.then(|| (random.unit() * random.magnitude(1.0, 1e4)).to_array()),
         inner_angle_deg: (kind == LightKind::Spot).then(|| random.between(0.0, 0.95) * outer),
         outer_angle_deg: (kind == LightKind::Spot).then_some(outer),
+        ..Default::default()
     };
     Light::new(&table, DVec3::ZERO)
 }

@@ -23,6 +23,7 @@ mod math_cases;
 mod rejects;
 mod scattering_tables;
 mod shading_cases;
+mod shadow_cases;
 mod table_reads;
 mod yarn_cases;
 
@@ -41,6 +42,7 @@ fn cases() -> Vec<Case> {
     all.extend(light_cases::cases());
     all.extend(khungurn_cases::cases());
     all.extend(shading_cases::cases());
+    all.extend(shadow_cases::cases());
     all
 }
 

@@ -2,14 +2,16 @@
 
 use crate::reflection::{self, Reflected};
 use crate::text_of;
-use worsted::gpu_types::{FIBERS_PER_PATCH, LENGTH_STRIPE, RADIANCE_MAX};
+use worsted::gpu_types::{FIBERS_PER_PATCH, LENGTH_STRIPE, RADIANCE_MAX, TUBE_CORNERS};
 use worsted::math::curve::Basis;
 use worsted::math::{frame, tone};
 use worsted::precompute::self_shadow::SELF_SHADOW_LEAST_SIN;
 use worsted::scene::features::Features;
 use worsted::scene::file::DebugView;
 use worsted::scene::light::LIGHT_RADIUS;
+use worsted::scene::shadow_light;
 use worsted::yarn::detail::CORE_LEVELS;
+use worsted::yarn::tube::{TUBE_CAP, TUBE_ROWS, TUBE_STEPS};
 
 /// Identifier and name of each specialization constant as Rust has them: `DebugView` is `DEBUG_VIEW`.
 fn rust_specialization() -> Vec<(u32, String)> {
@@ -21,6 +23,10 @@ fn rust_specialization() -> Vec<(u32, String)> {
         specular: false,
         diffuse: false,
         physical: false,
+        shadow_map: false,
+        soft_shadows: false,
+        self_shadow: false,
+        texture_occlusion: false,
         ambient: false,
         light_count: 0,
         local_lights: false,
@@ -140,7 +146,7 @@ fn plain_constants_are_equal() {
         ("VIEW_LEVEL_OF_DETAIL", DebugView::LevelOfDetail),
     ]
     .map(|(name, view)| (name, f64::from(view as u32)));
-    let files: [(&str, &[(&str, f64)]); 6] = [
+    let files: [(&str, &[(&str, f64)]); 8] = [
         (
             "glsl/shared/constants.glsl",
             &[
@@ -151,17 +157,32 @@ fn plain_constants_are_equal() {
                 ("LENGTH_STRIPE", f64::from(LENGTH_STRIPE)),
                 ("LIGHT_RADIUS", LIGHT_RADIUS),
                 ("RADIANCE_MAX", f64::from(RADIANCE_MAX)),
+                ("TUBE_STEPS", f64::from(TUBE_STEPS)),
+                ("TUBE_CORNERS", f64::from(TUBE_CORNERS)),
             ],
         ),
         ("glsl/shared/debug_views.glsl", &views),
         ("glsl/lib/curve.glsl", &bases),
         ("glsl/lib/frame.glsl", &[("NO_DIRECTION", frame::NO_DIRECTION)]),
         ("glsl/shading/self_shadow.glsl", &[("SELF_SHADOW_LEAST_SIN", SELF_SHADOW_LEAST_SIN)]),
+        ("glsl/yarn/tube.glsl", &[("TUBE_CAP", TUBE_CAP)]),
+        (
+            "glsl/shading/shadow_map.glsl",
+            &[
+                ("SHADOW_STEEPEST", shadow_light::SHADOW_STEEPEST),
+                ("SHADOW_MARGIN", shadow_light::SHADOW_MARGIN),
+                ("SHADOW_BIAS", shadow_light::SHADOW_BIAS),
+                ("SHADOW_WIDEST", shadow_light::SHADOW_WIDEST),
+                ("SHADOW_TAPS", f64::from(shadow_light::SHADOW_TAPS)),
+                ("GOLDEN_ANGLE", shadow_light::GOLDEN_ANGLE),
+            ],
+        ),
         ("glsl/lib/tone.glsl", &[("TONE_KNEE", tone::TONE_KNEE), ("FILMIC_END", tone::FILMIC_END)]),
     ];
     for (file, rust) in files {
         assert_eq!(unequal(&text_of(file), rust), Vec::<String>::new(), "{file}");
     }
+    assert_eq!(TUBE_CORNERS, 2 * TUBE_ROWS);
 }
 
 #[test]

@@ -5,8 +5,9 @@ use crate::reflection::{self, Descriptor, Layout, Member, Reflected};
 use crate::structs::differences;
 use crate::text_of;
 use spirq::ty::DescriptorType;
-use worsted::gpu_types::{Frame, Light, Statistics};
+use worsted::gpu_types::{Frame, Light, ShadowView, Statistics};
 use worsted::passes::fibers::{FibersPass, FrameBuffers};
+use worsted::passes::shadow_map::ShadowMap;
 use worsted::vulkan::{Binding, Buffer, DeviceChoice, MemoryKind, vk};
 
 /// The Vulkan type of a descriptor that a shader declares.
@@ -43,19 +44,23 @@ fn fiber_sets() -> Vec<Vec<Binding>> {
     let statistics =
         Buffer::upload(device, "statistics", storage, &[Statistics::default()]).expect("a small buffer");
     let lights = Buffer::upload(device, "lights", storage, &[Light::default()]).expect("a small buffer");
-    let pass = FibersPass::new(device, FrameBuffers { frame, statistics, lights }).expect("the pass");
+    let shadow_views =
+        Buffer::upload(device, "shadow views", storage, &[ShadowView::default()]).expect("a small buffer");
+    let shadow_map = ShadowMap::new(device, 1, 0).expect("a small image").image;
+    let buffers = FrameBuffers { frame, statistics, lights, shadow_views, shadow_map };
+    let pass = FibersPass::new(device, buffers).expect("the pass");
     pass.layouts().map(|layout| layout.bindings().to_vec()).to_vec()
 }
 
-/// The shaders that read the sets of the fiber pass: those of single fibers and of cores.
+/// The shaders that read the sets of the fiber pass: those of single fibers, of cores and of ribbons.
 fn draws_strands(shader: &Reflected) -> bool {
-    shader.path.starts_with("passes/fibers.") || shader.path.starts_with("passes/core.")
+    ["passes/fibers.", "passes/core.", "passes/shadow_map."].iter().any(|pass| shader.path.starts_with(pass))
 }
 
 #[test]
 fn bindings_of_the_fiber_shaders_are_those_of_the_pass() {
     let sets = fiber_sets();
-    assert_eq!(sets.iter().map(Vec::len).collect::<Vec<_>>(), [3, 8]);
+    assert_eq!(sets.iter().map(Vec::len).collect::<Vec<_>>(), [5, 10]);
     let mut seen = Vec::new();
     for shader in reflection::all().iter().filter(|shader| draws_strands(shader)) {
         for descriptor in &shader.descriptors {
@@ -91,7 +96,9 @@ fn a_moved_or_retyped_binding_is_found() {
     assert_eq!(mismatch(segments, &sets), None);
     assert_eq!(mismatch(texture, &sets), None);
     let moved = [(2, 1, segments), (1, 4, segments), (0, 0, segments), (1, 0, frame)];
-    for (set, binding, kind) in moved.into_iter().chain([(1, 8, texture), (1, 3, texture)]) {
+    for (set, binding, kind) in
+        moved.into_iter().chain([(1, 10, texture), (1, 3, texture), (0, 3, texture), (0, 4, segments)])
+    {
         let wrong = Descriptor { set, binding, kind: kind.kind.clone() };
         assert!(mismatch(&wrong, &sets).is_some(), "{wrong:?} passed");
     }
@@ -133,7 +140,7 @@ fn push_constants_are_the_structs_of_their_passes() {
         assert_eq!(differences(&rust, block), Vec::<String>::new(), "{}", shader.path);
         compared += 1;
     }
-    assert!(compared >= 2, "compared only {compared} blocks");
+    assert!(compared >= 3, "compared only {compared} blocks");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The Rust side: layouts of `src/gpu_types.rs` as the compiler has them.
 
 use crate::reflection::{Layout, Member};
-use worsted::gpu_types::{ControlPoint, Fiber, Frame, Light, Segment, Statistics, Yarn};
+use worsted::gpu_types::{ControlPoint, Fiber, Frame, Light, Segment, ShadowView, Statistics, Yarn};
 
 /// A Rust type's name in GLSL.
 trait Glsl {
@@ -23,6 +23,7 @@ glsl_names! {
     [[f32; 4]; 4] => "mat4", [[f32; 4]; 5] => "vec4[5]",
     [[f32; 4]; 9] => "vec4[9]",
     [f32; 8] => "float[8]",
+    [u32; 3] => "uint[3]",
 }
 
 /// The GLSL name of a field's type.
@@ -106,14 +107,26 @@ pub fn layouts() -> Vec<Layout> {
             k_tt,
             n_tt,
             scattering_entries,
-            padding,
+            first_piece,
             occlusion,
             diffuse,
             specular,
             reflection,
             transmission
         }),
-        layout!(Light { position, is_local, toward, cone_scale, strength, cone_offset }),
+        layout!(Light {
+            position,
+            is_local,
+            toward,
+            cone_scale,
+            strength,
+            cone_offset,
+            shadow_view,
+            shadow_view_count,
+            angular_tangent,
+            padding
+        }),
+        layout!(ShadowView { clip_from_world, depth_axis, toward, texel, padding }),
         layout!(Frame {
             clip_from_world,
             eye_world,

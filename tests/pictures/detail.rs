@@ -45,8 +45,14 @@ fn close_up_core_and_true_fibers_are_not_told_apart() {
 
 #[test]
 fn cores_alone_keep_the_mean_color_of_every_fiber() {
-    for preset in ["worsted_3ply", "cotton1"] {
+    // A core has no hairs; a hair is out in the light, so that without them the mean would be darker.
+    let bare = ["yarn.hair_density_per_mm=0", "yarn.loop_density_per_mm=0"];
+    for (preset, shadow) in
+        [("worsted_3ply", "true"), ("cotton1", "true"), ("worsted_3ply", "false"), ("cotton1", "false")]
+    {
         let yarn = format!("yarn.preset=\"{preset}\"");
+        let (map, inside) = (format!("shadow.map={shadow}"), format!("shadow.self={shadow}"));
+        let pictured = |sets: &[&str]| pictured(&[&bare[..], &[&map, &inside], sets].concat());
         let every = pictured(&[&yarn, EVERY]);
         let change = color_change(&pictured(&[&yarn, CORE_ALONE]), &every);
         println!("{preset}: colour changes by {change:.4}");

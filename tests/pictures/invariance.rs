@@ -128,7 +128,7 @@ fn radiance_is_linear_in_the_light() {
         (0..3).all(|c| (2.0 * p[c] - q[c]).abs() <= q[c] * 2e-3 + 1e-6) && p[3] == q[3]
     };
     assert!(once.pixels.iter().zip(&twice.pixels).all(|(p, q)| doubled(p, q)));
-    assert!(mean_radiance(&once) > 0.01);
+    assert!(mean_radiance(&once) > 0.003);
     assert!(!once.pixels.iter().zip(&once.pixels).all(|(p, q)| doubled(p, q)), "the check is blind");
     // The sum of the lights is the light of both.
     let (ambient, both) = (lit("[0, 0, 0]", "[0.5, 0.5, 0.5]"), lit("[1, 0.5, 0.25]", "[0.5, 0.5, 0.5]"));
@@ -219,7 +219,7 @@ fn the_number_of_samples_does_not_change_what_a_thin_fiber_shows() {
     for (what, sets, channel) in [
         ("normal toward the eye", &["debug.view=normal"][..], 2),
         ("occlusion", &["debug.view=occlusion"], 0),
-        ("light", &["ambient.radiance=[0, 0, 0]"], 1),
+        ("light", &["ambient.radiance=[0, 0, 0]", "shadow.self=false"], 1),
         ("tangent", &["debug.view=tangent"], 2),
     ] {
         let [one, four, many] = [1, 4, 64].map(|n| mean_channel(&sampled(n, sets), channel));

@@ -148,20 +148,21 @@ fn a_light_turns_between_pictures_without_a_new_renderer() {
     };
     let request =
         Request { size: SMALL, sampling: Sampling::new(1).unwrap(), statistics: false, profile: false };
-    let both = scene(&hook(), &[&format!("light=[{SUN}, {LAMP}]"), DARK]);
+    let both = scene(&hook(), &[&format!("light=[{SUN}, {LAMP}]"), DARK, "shadow.map=true"]);
     let mut renderer = Renderer::new(shared(DeviceChoice::Software), both, request).unwrap();
     let mut after = |lights: &[&str]| {
         renderer.set_lights(tables(lights)).map_err(|error| error.to_string())?;
         Ok::<_, String>(renderer.render(&|_| ()).unwrap().linear)
     };
     let turned = SUN.replace("{", "{direction = [-1, -0.2, 0], ");
-    for lights in [&[SUN, LAMP][..], &[&turned, LAMP], &[SPOT], &[], &[LAMP, LAMP]] {
-        assert_eq!(after(lights).unwrap(), lit(lights, &[], 1).pixels, "{lights:?}");
+    for lights in [&[SUN, LAMP][..], &[&turned, LAMP], &[SPOT], &[], &[LAMP]] {
+        assert_eq!(after(lights).unwrap(), lit(lights, &["shadow.map=true"], 1).pixels, "{lights:?}");
     }
     let refused = |result: Result<_, String>, expected: &str| {
         let message = result.map(|_: Vec<[f32; 4]>| ()).unwrap_err();
         assert!(message.contains(expected), "{message}");
     };
+    refused(after(&[LAMP, LAMP]), "at most 7 shadow views, as at first, found 12");
     refused(after(&[SUN, SUN, SUN]), "at most 2 that shine, as at first, found 3");
     refused(after(&["{irradiance = [-1, 0, 0]}"]), "light.0.irradiance");
     let sun = scene(&hook(), &[&format!("light=[{SUN}]"), DARK]);
@@ -200,12 +201,13 @@ fn an_environment_turns_with_the_camera() {
     });
     let from = |yaw_deg: f64| {
         let yaw = format!("ambient.environment_yaw_deg={yaw_deg:?}");
-        in_environment(&side, &[&yaw, "occlusion.mode=none", "shading.specular=false"])
+        in_environment(&side, &[&yaw, "occlusion.mode=none", "shading.specular=false", "shadow.self=false"])
     };
     let [right, behind, left] = [0.0, -90.0, 180.0].map(from);
     // Of a directional light from the same side it is a soft likeness, and not of one from the other.
-    let sun =
-        |direction: &str| lit(&[&format!("{{direction = {direction}}}")], &["shading.specular=false"], 4);
+    let sun = |direction: &str| {
+        lit(&[&format!("{{direction = {direction}}}")], &["shading.specular=false", "shadow.self=false"], 4)
+    };
     let (from_right, from_left) = (sun("[-1, 0, 0]"), sun("[1, 0, 0]"));
     let likeness = |a: &LinearImage, b: &LinearImage| {
         let (mut ab, mut aa, mut bb) = (0.0, 0.0, 0.0);
@@ -239,7 +241,7 @@ fn fibers_let_the_light_behind_them_through_and_reflect_what_is_before() {
     let from = |yaw_deg: f64, c_tt: &str, c_r: &str| {
         let yaw = format!("ambient.environment_yaw_deg={yaw_deg:?}");
         let (c_tt, c_r) = (format!("fiber.c_tt={c_tt}"), format!("fiber.c_r={c_r}"));
-        let sets = [&yaw, "occlusion.mode=none", "shading.diffuse=false", &c_tt, &c_r];
+        let sets = [&yaw, "occlusion.mode=none", "shadow.self=false", "shading.diffuse=false", &c_tt, &c_r];
         mean_radiance(&in_environment(&window, &sets))
     };
     let (none, all) = ("[0, 0, 0]", "[1, 1, 1]");

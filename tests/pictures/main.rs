@@ -12,6 +12,7 @@ mod furnace;
 mod golden;
 mod invariance;
 mod lights;
+mod shadows;
 mod strand_judge;
 mod turned_light;
 

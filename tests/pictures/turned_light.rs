@@ -18,7 +18,9 @@ use worsted::vulkan::DeviceChoice;
 
 /// A fiber is 1.04 pixels wide, and the yarn reaches past the picture's sides.
 const SIZE: [u32; 2] = [160, 72];
-const SETS: [&str; 14] = [
+const SETS: [&str; 16] = [
+    "shadow.map=false",
+    "shadow.self=false",
     "yarn.fibers_per_ply=48",
     "yarn.loop_density_per_mm=0",
     "yarn.hair_density_per_mm=0",

@@ -1,6 +1,7 @@
 //! Measures what level of detail and tables cost and save, and says whether their limits hold: `measure
-//! lod-error|lod-cost|dolly|turntable|tables|shadow-tables`. Exit codes are those of `worsted`; 1 is a limit that does not hold.
+//! lod-error|lod-cost|dolly|turntable|tables|shadow-tables|shadow-cost`. Exit codes are those of `worsted`; 1 is a limit that does not hold.
 
+mod cost;
 mod dolly;
 mod lod_cost;
 mod lod_error;
@@ -8,6 +9,7 @@ mod lod_error;
 mod looks;
 mod pictures;
 mod report;
+mod shadow_cost;
 mod shadow_tables;
 mod stage;
 mod tables;
@@ -36,13 +38,15 @@ enum Command {
     /// Error of the default settings against every fiber.
     LodError(lod_error::Options),
     /// CPU and wall time of a picture with level of detail and without.
-    LodCost(lod_cost::Options),
+    LodCost(cost::Options),
     /// Changes from frame to frame, and of the mean colour, as the camera goes from 5 cm to 5 m.
     Dolly(dolly::Options),
     /// Pictures with culling against pictures without, as pieces of yarn come and go.
     Turntable(turntable::Options),
     /// Error of the tables of fiber scattering by their size. Needs no device.
     Tables,
+    /// CPU and wall time with shadows and occlusion and without.
+    ShadowCost(cost::Options),
     /// Error of the self-shadow and occlusion tables against the integrals they stand for, by size.
     ShadowTables(shadow_tables::Options),
 }
@@ -64,6 +68,7 @@ fn run(args: &Args) -> Result<(), Error> {
         Command::Dolly(options) => on_device(args, |stage| dolly::run(stage, options)),
         Command::Turntable(options) => on_device(args, |stage| turntable::run(stage, options)),
         Command::Tables => tables::run(),
+        Command::ShadowCost(options) => on_device(args, |stage| shadow_cost::run(stage, options)),
         Command::ShadowTables(options) => on_device(args, |stage| shadow_tables::run(stage, options)),
     }
 }
