@@ -10,6 +10,7 @@ pub mod upload;
 
 use crate::gpu_types::{Statistics, TUBE_CORNERS};
 use crate::graph::{Graph, Pass};
+use crate::math::bounds::Bounds;
 use crate::passes::fibers::{FibersPass, FrameBuffers};
 use crate::passes::resolve::ResolvePass;
 use crate::passes::shadow_map::{ShadowMap, ShadowMapPass};
@@ -20,7 +21,6 @@ use crate::scene::camera::Camera;
 use crate::scene::features::Features;
 use crate::scene::file::CameraTable;
 use crate::scene::light::{LightTable, check_lights};
-use crate::scene::shadow::Bounds;
 use crate::scene::{Scene, SceneError};
 use crate::vulkan::{Buffer, Device, ImageState, MemoryKind, VulkanError, vk};
 use crate::yarn::table::fiber_table;

@@ -1,10 +1,11 @@
 //! Lights and what they see, in the device's words.
 
 use crate::gpu_types::{Light, ShadowView};
+use crate::math::bounds::{Bounds, bounds};
 use crate::scene::Scene;
 use crate::scene::camera::Camera;
 use crate::scene::light::{self, LightTable};
-use crate::scene::shadow::{self, Bounds, shadow_views};
+use crate::scene::shadow::{self, shadow_views};
 use crate::vulkan::{Buffer, Device, MemoryKind, VulkanError, vk};
 use glam::{DMat4, DVec3};
 use std::sync::Arc;
@@ -112,12 +113,9 @@ fn gpu_view(view: &shadow::ShadowView) -> ShadowView {
 
 /// The box around all yarns of a scene, their thickness included, relative to its origin.
 pub fn cloth_bounds(scene: &Scene) -> Bounds {
-    let nothing = (DVec3::splat(f64::INFINITY), DVec3::splat(f64::NEG_INFINITY));
-    scene.fabrics.iter().fold(nothing, |bounds, fabric| {
+    bounds(scene.fabrics.iter().flat_map(|fabric| {
         let radius = DVec3::splat(fabric.yarn.outer_radius_mm());
-        fabric
-            .hull_points()
-            .map(|p| p - scene.origin_mm)
-            .fold(bounds, |(low, high), p| (low.min(p - radius), high.max(p + radius)))
-    })
+        let near = move |p: DVec3| [p - scene.origin_mm - radius, p - scene.origin_mm + radius];
+        fabric.hull_points().flat_map(near)
+    }))
 }

@@ -1,6 +1,7 @@
 //! Plain mathematics that every other module may use; imports no project module.
 
 pub mod angle;
+pub mod bounds;
 pub mod color;
 pub mod coverage;
 pub mod curve;

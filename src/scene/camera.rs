@@ -1,6 +1,7 @@
 //! The camera: angles to matrices, in f64.
 
 use super::file::CameraTable;
+use crate::math::bounds::bounds;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 
 /// Share of the picture's half-width or half-height that a fitted model may fill.
@@ -108,11 +109,6 @@ fn lies_flat(points: impl Iterator<Item = DVec3>) -> bool {
     let (low, high) = bounds(points);
     let size = high - low;
     size.y < FLAT_SHARE * size.x.min(size.z)
-}
-
-fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
-    let nothing = (DVec3::splat(f64::INFINITY), DVec3::splat(f64::NEG_INFINITY));
-    points.fold(nothing, |(low, high), p| (low.min(p), high.max(p)))
 }
 
 /// Centre of the points' box in view axes, given in world space.

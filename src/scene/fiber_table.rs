@@ -1,7 +1,8 @@
 //! From a scene's fiber tables to a fiber's look: the preset, then what the scene and the fabric say otherwise.
 
 use super::file::SceneFile;
-use super::keys::{KeyError, nearest, suggestion};
+use super::keys::KeyError;
+use super::tables::{check_each, preset_named, unknown_key};
 use crate::bsdf::params::{FiberParams, NARROWEST_DEG, WIDEST_DEG};
 use crate::bsdf::presets;
 use toml::{Table, Value};
@@ -11,11 +12,13 @@ use toml::{Table, Value};
 /// # Errors
 /// Unknown presets and keys, with the nearest known one; values of the wrong type or out of range.
 pub fn resolve_fiber(scene: &Table, fabric: &Table) -> Result<FiberParams, KeyError> {
-    let preset = resolve_preset(fabric.get("preset").or(scene.get("preset")))?;
+    let named = fabric.get("preset").or(scene.get("preset"));
+    let preset =
+        preset_named("fiber", named, presets::DEFAULT_FIBER, presets::fiber_names(), presets::fiber)?;
     let mut table = Table::try_from(&preset).map_err(|e| KeyError::new("fiber", format!(": {e}")))?;
     for (key, value) in scene.iter().chain(fabric).filter(|(key, _)| !OTHER_KEYS.contains(&key.as_str())) {
         if !KEYS.contains(&key.as_str()) {
-            return Err(unknown_key(key));
+            return Err(unknown_key("fiber", key, KEYS.into_iter().chain(OTHER_KEYS)));
         }
         table.insert(key.clone(), value.clone());
     }
@@ -57,17 +60,7 @@ fn dye(fiber: &FiberParams, color: &Value, has_c_tt: bool) -> Result<FiberParams
 /// # Errors
 /// The first that is wrong, with the paths at which its key may stand, the likeliest first.
 pub fn check_fibers(file: &SceneFile) -> Result<(), (KeyError, Vec<String>)> {
-    let none = Table::new();
-    let bare = file.fabric.is_empty().then_some(&none);
-    for (i, fabric) in file.fabric.iter().map(|fabric| &fabric.fiber).chain(bare).enumerate() {
-        resolve_fiber(&file.fiber, fabric).map_err(|error| {
-            // `[fabric]` is a table of its own, `[[fabric]]` an array of them.
-            let tables = [format!("fabric.{i}."), "fabric.".into(), String::new()];
-            let paths = tables.iter().map(|table| format!("{table}{}", error.path)).collect();
-            (error, paths)
-        })?;
-    }
-    Ok(())
+    check_each(file, "fiber", |fabric| &fabric.fiber, |fabric| resolve_fiber(&file.fiber, fabric).map(|_| ()))
 }
 
 /// What a fiber table may hold beside parameters: the preset, and the colour of the cloth to dye the fiber for.
@@ -89,31 +82,6 @@ fn check(fiber: &FiberParams) -> Result<(), KeyError> {
     width("beta_tt_deg", fiber.beta_tt_deg, WIDEST_DEG)?;
     width("gamma_tt_deg", fiber.gamma_tt_deg, WIDEST_DEG)?;
     width("specular_width_deg", fiber.specular_width_deg.unwrap_or(NARROWEST_DEG), 90.0)
-}
-
-fn resolve_preset(named: Option<&Value>) -> Result<FiberParams, KeyError> {
-    let name = match named {
-        None => presets::DEFAULT_FIBER,
-        Some(Value::String(name)) => name,
-        Some(other) => {
-            return Err(KeyError::new("fiber.preset", format!(" = {other}: expected a name")));
-        }
-    };
-    presets::fiber(name).ok_or_else(|| {
-        let known: Vec<_> = presets::fiber_names().collect();
-        let hint = suggestion(nearest(name, known.iter().copied()));
-        let message = format!(" = {name:?}: no such preset{hint}; expected one of {}", known.join(", "));
-        KeyError::new("fiber.preset", message)
-    })
-}
-
-fn unknown_key(key: &str) -> KeyError {
-    let known = || KEYS.into_iter().chain(OTHER_KEYS);
-    let message = match nearest(key, known()) {
-        near @ Some(_) => format!(": unknown key{}", suggestion(near)),
-        None => format!(": unknown key; expected one of {}", known().collect::<Vec<_>>().join(", ")),
-    };
-    KeyError::new(&format!("fiber.{}", key.escape_debug()), message)
 }
 
 #[cfg(test)]

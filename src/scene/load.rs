@@ -12,6 +12,7 @@ use crate::io::picture::LinearImage;
 use crate::io::yarn_file::Loaded;
 use crate::knit::params::KnitParams;
 use crate::knit::stockinette::stockinette;
+use crate::math::bounds::bounds;
 use glam::DVec3;
 use std::path::Path;
 use std::sync::Arc;
@@ -171,12 +172,7 @@ fn read_table(path: &Path) -> Result<Table, SceneError> {
 
 /// Centre of the box around all fabrics.
 fn center(fabrics: &[Fabric]) -> DVec3 {
-    let (low, high) = fabrics
-        .iter()
-        .flat_map(Fabric::hull_points)
-        .fold((DVec3::splat(f64::INFINITY), DVec3::splat(f64::NEG_INFINITY)), |(low, high), p| {
-            (low.min(p), high.max(p))
-        });
+    let (low, high) = bounds(fabrics.iter().flat_map(Fabric::hull_points));
     if low.is_finite() && high.is_finite() { 0.5 * (low + high) } else { DVec3::ZERO }
 }
 

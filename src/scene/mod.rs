@@ -11,6 +11,7 @@ pub mod load;
 pub mod overrides;
 pub mod shadow;
 pub mod shadow_light;
+pub mod tables;
 pub mod yarn_table;
 
 use crate::io::error::FileError;

@@ -3,6 +3,7 @@
 use super::camera::Camera;
 use super::keys::KeyError;
 use super::light::{LightKind, LightTable};
+use crate::math::bounds::Bounds;
 use crate::math::frame::any_perpendicular;
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use serde::{Deserialize, Serialize};
@@ -53,9 +54,6 @@ pub struct ShadowView {
     /// Toward the light from p: xyz - w p.
     pub toward: DVec4,
 }
-
-/// Box in world space, corner to corner.
-pub type Bounds = (DVec3, DVec3);
 
 fn corners((low, high): Bounds) -> [DVec3; 8] {
     std::array::from_fn(|i| {

@@ -1,22 +1,25 @@
 //! From a scene's yarn tables to a yarn: the preset, then what the scene and the fabric say otherwise.
 
 use super::file::SceneFile;
-use super::keys::{KeyError, nearest, suggestion};
+use super::keys::KeyError;
+use super::tables::{check_each, preset_named, unknown_key};
 use crate::yarn::params::YarnParams;
 use crate::yarn::presets;
-use crate::yarn::ranges::{PARAMETERS, ParamError, find, shown};
-use toml::{Table, Value};
+use crate::yarn::ranges::{PARAMETERS, ParamError, find};
+use toml::Table;
 
 /// The preset and the parameters after the scene's and the fabric's overrides, checked.
 ///
 /// # Errors
 /// Unknown presets and keys, with the nearest known one; values of the wrong type or out of range.
 pub fn resolve_yarn(scene: &Table, fabric: &Table) -> Result<(YarnParams, YarnParams), KeyError> {
-    let preset = resolve_preset(fabric.get("preset").or(scene.get("preset")))?;
+    let named = fabric.get("preset").or(scene.get("preset"));
+    let preset = preset_named("yarn", named, presets::DEFAULT_YARN, presets::yarn_names(), presets::yarn)?;
+    let known = PARAMETERS.iter().map(|parameter| parameter.key).chain(["preset"]);
     let mut table = Table::try_from(&preset).map_err(|e| KeyError::new("yarn", format!(": {e}")))?;
     let mut radius_stated = false;
     for (key, value) in scene.iter().chain(fabric).filter(|(key, _)| *key != "preset") {
-        let parameter = find(key).ok_or_else(|| unknown_key(key))?;
+        let parameter = find(key).ok_or_else(|| unknown_key("yarn", key, known.clone()))?;
         parameter.check(value).map_err(at_key)?;
         radius_stated |= key == "yarn_radius_mm";
         // TOML has no null: an untwisted pitch is one that is absent.
@@ -41,44 +44,7 @@ pub fn resolve_yarn(scene: &Table, fabric: &Table) -> Result<(YarnParams, YarnPa
 /// # Errors
 /// The first that is wrong, with the paths at which its key may stand, the likeliest first.
 pub fn check_yarns(file: &SceneFile) -> Result<(), (KeyError, Vec<String>)> {
-    let none = Table::new();
-    let bare = file.fabric.is_empty().then_some(&none);
-    for (i, fabric) in file.fabric.iter().map(|fabric| &fabric.yarn).chain(bare).enumerate() {
-        resolve_yarn(&file.yarn, fabric).map_err(|error| {
-            // `[fabric]` is a table of its own, `[[fabric]]` an array of them.
-            let tables = [format!("fabric.{i}."), "fabric.".into(), String::new()];
-            let keys = tables.iter().map(|table| format!("{table}{}", error.path));
-            let whole = tables.iter().map(|table| format!("{table}yarn"));
-            let paths = keys.chain(whole).collect();
-            (error, paths)
-        })?;
-    }
-    Ok(())
-}
-
-fn resolve_preset(named: Option<&Value>) -> Result<YarnParams, KeyError> {
-    let name = match named {
-        None => presets::DEFAULT_YARN,
-        Some(Value::String(name)) => name,
-        Some(other) => {
-            return Err(KeyError::new("yarn.preset", format!(" = {}: expected a name", shown(other))));
-        }
-    };
-    presets::yarn(name).ok_or_else(|| {
-        let known: Vec<_> = presets::yarn_names().collect();
-        let hint = suggestion(nearest(name, known.iter().copied()));
-        let message = format!(" = {name:?}: no such preset{hint}; expected one of {}", known.join(", "));
-        KeyError::new("yarn.preset", message)
-    })
-}
-
-fn unknown_key(key: &str) -> KeyError {
-    let known = || PARAMETERS.iter().map(|parameter| parameter.key).chain(["preset"]);
-    let message = match nearest(key, known()) {
-        near @ Some(_) => format!(": unknown key{}", suggestion(near)),
-        None => format!(": unknown key; expected one of {}", known().collect::<Vec<_>>().join(", ")),
-    };
-    KeyError::new(&format!("yarn.{}", key.escape_debug()), message)
+    check_each(file, "yarn", |fabric| &fabric.yarn, |fabric| resolve_yarn(&file.yarn, fabric).map(|_| ()))
 }
 
 fn at_key(error: ParamError) -> KeyError {
