@@ -8,6 +8,7 @@
 layout(std140, set = 0, binding = 0) uniform FrameBlock { Frame frame; };
 layout(std430, set = 0, binding = 1) buffer StatisticsBlock { Statistics statistics; };
 layout(std430, set = 0, binding = 2) readonly buffer LightBlock { Light lights[]; };
+layout(std430, set = 0, binding = 3) readonly buffer ShadowViewBlock { ShadowView shadow_views[]; };
 
 layout(std430, set = 1, binding = 0) readonly buffer ControlPointBlock { ControlPoint control_points[]; };
 layout(std430, set = 1, binding = 1) readonly buffer SegmentBlock { Segment segments[]; };
@@ -25,7 +26,5 @@ layout(std430, set = 1, binding = 7) readonly buffer ScatteringBlock { vec4 scat
 // Of the yarn's cross-section: src/precompute/self_shadow.rs and occlusion_table.rs.
 layout(set = 1, binding = 8) uniform sampler3D self_shadow_table;
 layout(set = 1, binding = 9) uniform sampler2D occlusion_table;
-
-layout(std430, set = 0, binding = 3) readonly buffer ShadowViewBlock { ShadowView shadow_views[]; };
 
 #endif

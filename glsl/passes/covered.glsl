@@ -4,7 +4,7 @@
 
 #include "../shared/features.glsl"
 
-// Of 4 samples, from the pixel's centre: the standard's (Vulkan 1.3, Table 63), which the device is asked for.
+// Of 4 samples, from the pixel's centre: the standard ones, which a device must have (src/vulkan/select.rs).
 const vec2 SAMPLE_OFFSETS[4] = vec2[4](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125),
                                        vec2(0.125, 0.375));
 

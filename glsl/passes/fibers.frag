@@ -1,5 +1,5 @@
 #version 460
-// Shades a fiber: Wu & Yuksel 2019's simple model.
+// Shades a single fiber.
 #extension GL_GOOGLE_include_directive : require
 #include "covered.glsl"
 #include "surface.glsl"

@@ -4,6 +4,7 @@
 
 #include "bindings.glsl"
 #include "../lib/frame.glsl"
+#include "../lib/hash.glsl"
 #include "../shading/shadow_map.glsl"
 
 layout(set = 0, binding = 4) uniform usampler2DArray shadow_map;

@@ -191,7 +191,8 @@ vec3 shade(Strand strand, vec3 to_eye, float visibility) {
                                          : Arriving(lights[i].toward, lights[i].strength);
         vec3 scattered = scatter(strand, arriving.to_light, to_eye);
         // Most of a yarn faces away from a light: nobody looks there what shadows it.
-        if (max(scattered.r, max(scattered.g, scattered.b)) > LEAST_SCATTERED) {
+        bool may_be_shadowed = SELF_SHADOW || SHADOW_MAP;
+        if (!may_be_shadowed || max(scattered.r, max(scattered.g, scattered.b)) > LEAST_SCATTERED) {
             sum += scattered * arriving.irradiance * unshadowed(strand, lights[i], arriving.to_light);
         }
     }

@@ -3,7 +3,6 @@
 #define WORSTED_SHADOW_MAP
 
 #include "../shared/layouts.glsl"
-#include "../lib/hash.glsl"
 
 // Largest cotangent of the angle between light and yarn for which a yarn's own tube is told from others.
 const float SHADOW_STEEPEST = 24.0;

@@ -165,6 +165,8 @@ fn examine(instance: &ash::Instance, index: usize, handle: vk::PhysicalDevice) -
     let (mut needs, optional) = features(instance, handle, modern);
     needs.insert(0, ("Vulkan 1.3", modern));
     needs.push(("a queue with graphics and compute", queue_family.is_some()));
+    // Shaders know by them where in a pixel a thin fiber is seen: glsl/passes/covered.glsl.
+    needs.push(("the standard sample locations", base.limits.standard_sample_locations == vk::TRUE));
     Candidate {
         index,
         handle,
