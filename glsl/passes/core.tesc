@@ -25,7 +25,7 @@ void main() {
     // Besides the ply's own turn, the texture follows the turn of its ellipse as seen, which is uneven.
     float uneven_mm = yarn.ply_radius * abs(yarn.ellipse_long / yarn.ellipse_short - 1.0);
     uint pieces = subdivisions(b, segment.ply_turns_delta, 0.0, yarn.ply_offset, uneven_mm,
-                               frame.tolerance_px * pixel_mm, PIECES_PER_TURN_FULL, yarn.max_subdivisions);
+                               frame.tolerance_px * pixel_mm, PIECES_PER_TURN, yarn.max_subdivisions);
     patch_segment = segment_index[0];
     patch_pieces = pieces;
     bool drawn = !culled && !empty;

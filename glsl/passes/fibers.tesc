@@ -35,7 +35,7 @@ uvec2 drawn_slots(Segment segment, uint slot_count, Detail detail) {
     return mask;
 }
 
-uint pieces_of(Segment segment, vec3 b[4], float pixel_mm, Detail detail) {
+uint pieces_of(Segment segment, vec3 b[4], float pixel_mm) {
     float fiber_reach = yarn.ellipse_long;
     if (FLYAWAYS) {
         // Loops and hairs turn about the ply farther out than its other fibers.
@@ -43,9 +43,8 @@ uint pieces_of(Segment segment, vec3 b[4], float pixel_mm, Detail detail) {
         float loop = yarn.loop_probability > 0.0 ? yarn.loop_radius_mean : 0.0;
         fiber_reach *= max(1.0, max(hair, loop));
     }
-    float tolerance_mm = frame.tolerance_px * pixel_mm * mix(1.0, FIBER_TOLERANCE_GROWTH, simplified(detail));
     uint pieces = subdivisions(b, segment.ply_turns_delta, segment.fiber_turns_delta, yarn.ply_offset,
-                               fiber_reach, tolerance_mm, pieces_per_turn(detail), yarn.max_subdivisions);
+                               fiber_reach, frame.tolerance_px * pixel_mm, PIECES_PER_TURN, yarn.max_subdivisions);
     return FLYAWAYS ? period_pieces(pieces, period_rate(segment, yarn), yarn.max_subdivisions) : pieces;
 }
 
@@ -63,7 +62,7 @@ void main() {
         patch_mask = drawn_slots(segment, fiber_count, detail);
         fiber_count = uint(bitCount(patch_mask.x) + bitCount(patch_mask.y));
     }
-    uint pieces = culled || fiber_count == 0u ? 1u : pieces_of(segment, b, pixel_mm, detail);
+    uint pieces = culled || fiber_count == 0u ? 1u : pieces_of(segment, b, pixel_mm);
     patch_segment = segment_index[0];
     patch_first_fiber = first_fiber[0];
     // The evaluation stage sees levels before clamping, so it gets the counts themselves.

@@ -20,20 +20,9 @@ Detail detail_at(float pixel_mm) {
     return detail_of(pixel_mm, frame.lod_threshold_px, frame.thin_fiber_px, yarn);
 }
 
-// Least pieces a turn of something drawn at full detail, and where only cores are drawn.
-const float PIECES_PER_TURN_FULL = 6.0;
-const float PIECES_PER_TURN_LEAST = 2.0;
-// Factor of the tolerance for fibers where only cores are drawn: thinner than a sample there, their place
-// matters less. Not so for cores, whose colour far away it would change.
-const float FIBER_TOLERANCE_GROWTH = 4.0;
-
-float simplified(Detail detail) {
-    return detail.level / float(CORE_LEVELS - 1u);
-}
-
-float pieces_per_turn(Detail detail) {
-    return mix(PIECES_PER_TURN_FULL, PIECES_PER_TURN_LEAST, simplified(detail));
-}
+// Least pieces a turn of a fiber or ply, however small it is in the picture: straight pieces cut its way around
+// short, and what is drawn narrower than it is covers less.
+const float PIECES_PER_TURN = 6.0;
 
 // Share of its width with which the fiber in a slot is drawn, whatever its rank.
 float slot_weight(uint slot, Detail detail) {
