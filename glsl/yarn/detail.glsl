@@ -11,8 +11,12 @@
 const float RANK_FADE = 0.25;
 // Share of the part of fibers kept over which one fades in.
 const float THINNING_FADE = 0.2;
-// Share of the ply's radius from which on loops and hairs stand out of it.
-const float FLYING_SHARE = 1.0;
+// Share of the ply's radius from which on loops and hairs are seen beside the core, which stands for fibers that
+// only migrate: without those that stay within the ply it would be shaded as too deep.
+const float FLYING_SHARE = 0.6;
+// Most width to which fibers are drawn in place of others, as a share of the ply's: those that stand out of it would
+// hide it or stick out from behind it where the ones they stand for do not.
+const float WIDEST_SHARE = 0.25;
 // Periods in a piece of yarn beyond which it is taken to hold a flyaway without looking.
 const int MOST_PERIODS_SEARCHED = 8;
 
@@ -35,19 +39,20 @@ float lod_factor(float fiber_px, float ply_px, float threshold) {
     return (fiber_px / threshold) * ((ply_px - threshold) / (ply_px - fiber_px));
 }
 
-// Share of all fibers that is kept where each is `fiber_px` pixels wide and `thin` pixels are the least allowed;
-// above 1 none is dropped.
-float share_kept(float fiber_px, float thin) {
-    return fiber_px / thin;
+// Share of all fibers that is kept where each is `fiber_px` pixels wide, plies are `ply_px` and `thin` pixels are
+// the least allowed; above 1 none is dropped.
+float share_kept(float fiber_px, float ply_px, float thin) {
+    return fiber_px / max(min(thin, WIDEST_SHARE * ply_px), 1e-30);
 }
 
 // What is drawn of a yarn whose pixels are `pixel_mm` wide at its place. `threshold` and `thin` in pixels.
 Detail detail_of(float pixel_mm, float threshold, float thin, Yarn yarn) {
     float fiber_px = 2.0 * yarn.fiber_radius / pixel_mm;
-    float factor = lod_factor(fiber_px, 2.0 * yarn.ply_radius / pixel_mm, threshold);
+    float ply_px = 2.0 * yarn.ply_radius / pixel_mm;
+    float factor = lod_factor(fiber_px, ply_px, threshold);
     Detail detail;
     detail.kept = factor * factor * yarn.core_ranks;
-    detail.share = share_kept(fiber_px, thin);
+    detail.share = share_kept(fiber_px, ply_px, thin);
     detail.level = (1.0 - factor) * float(CORE_LEVELS - 1u);
     return detail;
 }

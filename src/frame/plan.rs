@@ -27,8 +27,9 @@ pub fn draw_plan(
         Strands::Regular if features.level_of_detail => {
             let pixel_mm = camera.pixel_tangent(request.size) * nearest_depth_mm(scene, fabric, camera);
             let fiber_px = 2.0 * fabric.yarn.fiber_radius_mm() / pixel_mm;
+            let ply_px = 2.0 * fabric.yarn.round_ply_radius_mm() / pixel_mm;
             let thin_px = quality.thin_fiber_samples * request.sampling.spacing_px();
-            slots_kept(share_kept(fiber_px, thin_px), all)
+            slots_kept(share_kept(fiber_px, ply_px, thin_px), all)
         }
         Strands::Regular => all,
     };

@@ -16,8 +16,12 @@ pub const CORE_LEVELS: u32 = 8;
 const RANK_FADE: f64 = 0.25;
 /// Share of the part of fibers kept over which one fades in.
 const THINNING_FADE: f64 = 0.2;
-/// Share of the ply's radius from which on loops and hairs stand out of it.
-const FLYING_SHARE: f64 = 1.0;
+/// Share of the ply's radius from which on loops and hairs are seen beside the core, which stands for fibers that
+/// only migrate: without those that stay within the ply it would be shaded as too deep.
+const FLYING_SHARE: f64 = 0.6;
+/// Most width to which fibers are drawn in place of others, as a share of the ply's: those that stand out of it
+/// would hide it or stick out from behind it where the ones they stand for do not.
+const WIDEST_SHARE: f64 = 0.25;
 /// Periods in a piece of yarn beyond which it is taken to hold a flyaway without looking.
 const MOST_PERIODS_SEARCHED: i32 = 8;
 
@@ -55,20 +59,21 @@ pub fn lod_factor(fiber_px: f64, ply_px: f64, threshold: f64) -> f64 {
     (fiber_px / threshold) * ((ply_px - threshold) / (ply_px - fiber_px))
 }
 
-/// Share of all fibers that is kept where each is `fiber_px` pixels wide and `thin` pixels are the least allowed;
-/// above 1 none is dropped.
-pub fn share_kept(fiber_px: f64, thin: f64) -> f64 {
-    fiber_px / thin
+/// Share of all fibers that is kept where each is `fiber_px` pixels wide, plies are `ply_px` and `thin` pixels are
+/// the least allowed; above 1 none is dropped.
+pub fn share_kept(fiber_px: f64, ply_px: f64, thin: f64) -> f64 {
+    fiber_px / thin.min(WIDEST_SHARE * ply_px).max(1e-30)
 }
 
 /// What is drawn of a yarn whose pixels are `pixel_mm` wide at its place. `threshold` and `thin` in pixels.
 /// The number of fibers goes with the square of Eq. 4's factor, as the paper's text has it.
 pub fn detail_of(pixel_mm: f64, threshold: f64, thin: f64, widths: &DetailWidths) -> Detail {
     let fiber_px = 2.0 * widths.fiber_radius_mm / pixel_mm;
-    let factor = lod_factor(fiber_px, 2.0 * widths.ply_radius_mm / pixel_mm, threshold);
+    let ply_px = 2.0 * widths.ply_radius_mm / pixel_mm;
+    let factor = lod_factor(fiber_px, ply_px, threshold);
     Detail {
         kept: factor * factor * widths.core_ranks,
-        share: share_kept(fiber_px, thin),
+        share: share_kept(fiber_px, ply_px, thin),
         level: (1.0 - factor) * f64::from(CORE_LEVELS - 1),
     }
 }

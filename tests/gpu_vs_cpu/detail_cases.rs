@@ -48,12 +48,13 @@ fn share_kept() -> Case {
         "share_kept",
         |random| {
             let thin = random.magnitude(0.05, 2.0);
-            reals(&[thin * random.magnitude(1e-4, 10.0), thin])
+            let fiber_px = thin * random.magnitude(1e-4, 10.0);
+            reals(&[fiber_px, fiber_px * random.magnitude(1.0, 100.0), thin])
         },
-        |args| vec![number("share", detail::share_kept(args.real(), args.real()), FLOOR)],
+        |args| vec![number("share", detail::share_kept(args.real(), args.real(), args.real()), FLOOR)],
     );
     for fiber_px in [0.0, 1e-30, 0.25, 1.0, 1e6] {
-        case.rows.push(reals(&[fiber_px, 0.25]));
+        case.rows.extend([0.0, 1.0, 1e6].map(|ply_px| reals(&[fiber_px, ply_px, 0.25])));
     }
     case
 }

@@ -5,6 +5,7 @@
 
 void run() {
     float fiber_px = take_float();
+    float ply_px = take_float();
     float thin = take_float();
-    give(share_kept(fiber_px, thin));
+    give(share_kept(fiber_px, ply_px, thin));
 }
