@@ -138,8 +138,9 @@ pub struct Yarn {
     pub core_height: f32,
     /// Texels across the core's texture.
     pub core_rows: u32,
-    /// Texels along it, over one turn.
-    pub core_columns: u32,
+    /// Of the two heights that stand for all at a place of the core: how far the upper one lies above their mean,
+    /// as a share of the heights' deviation.
+    pub core_above: f32,
     /// Farthest fiber of each of the core's levels (`CORE_LEVELS` in `glsl/shared/constants.glsl`), as a share of the ellipse.
     pub core_thickness: [f32; 8],
     /// Between the fibers of successive slots: [`crate::yarn::detail::fiber_of_slot`].

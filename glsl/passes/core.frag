@@ -30,22 +30,22 @@ Surface read_core(vec2 uv, float lod, uvec2 words) {
 // Texels of the finer direction that a pixel spans.
 float texels_of(float pixel_mm) {
     float across = pixel_mm * float(yarn.core_rows) / (2.0 * yarn.core_extent * fragment_section.x);
-    float along = pixel_mm * abs(fragment_rates.w) / TWO_PI * float(yarn.core_columns);
+    float along = pixel_mm * abs(fragment_rates.w) / TWO_PI * float(textureSize(core_shape, 0).x);
     return max(across, along);
 }
 
 // Random words of one cell of the texture, as large as a pixel: stable where the cloth moves.
 uvec4 cell_words(vec2 uv, float texels) {
     float cell = exp2(ceil(log2(max(texels, 1.0))));
-    ivec2 place = ivec2(floor(uv * vec2(yarn.core_columns, yarn.core_rows) / cell));
+    ivec2 place = ivec2(floor(uv * vec2(textureSize(core_shape, 0).xy) / cell));
     return hash_words(uvec4(uvec2(place), fragment_core.z * 8u + fragment_core.x, frame.index));
 }
 
 // Place in the yarn's cross-section, along side and toward and as a share of outer_radius, of what lies at `v`
-// across and `height` above.
-vec2 yarn_place(float v, float height) {
+// across and `height` above; `from_yarn` is the unit direction of the ply's centre there.
+vec2 yarn_place(float v, float height, vec2 from_yarn) {
     vec2 offset = vec2(fragment_section.x * v, fragment_section.y * height + fragment_section.z * v);
-    return (offset + yarn.ply_offset * fragment_place.xy) / yarn.outer_radius;
+    return (offset + yarn.ply_offset * from_yarn) / yarn.outer_radius;
 }
 
 void main() {
@@ -61,11 +61,18 @@ void main() {
     }
     gl_SampleMask[0] = int(mask);
 
+    // Height of the ply's round here, as a share of the section's depth.
+    float round = sqrt(max(0.0, yarn.core_extent * yarn.core_extent - v * v));
+    float height = round * surface.height;
+    float rough = round * surface.rough;
+    // Fibers turn about the ply, and migrate.
+    surface.slope += vec2(-height, v);
+    surface.spread.x += rough * rough;
     // From the texture's turn to the ply in space.
     vec4 rates = fragment_rates;
     vec2 slope = rates.w * vec2(fragment_section.x * surface.slope.x,
                                 fragment_section.y * surface.slope.y + fragment_section.z * surface.slope.x);
-    slope += vec2(rates.x * v, rates.y * surface.height + rates.z * v);
+    slope += vec2(rates.x * v, rates.y * height + rates.z * v);
     vec2 scale = rates.w * fragment_section.xy;
     float shrink = 1.0 / (1.0 + dot(slope, slope));
 
@@ -79,16 +86,15 @@ void main() {
     strand.side = cross(strand.toward, strand.tangent);
     strand.spread = shrink * vec3(scale.x * scale.x, scale.y * scale.y, scale.x * scale.y) * surface.spread;
     strand.normals = surface.normals;
-    // Heights are skewed: none lies above the ply's round.
-    float top = sqrt(max(0.0, yarn.core_extent * yarn.core_extent - v * v));
-    // So two heights with their mean and deviation, the upper one no farther up than that.
-    float above = clamp(top - surface.height, 0.25 * surface.rough, surface.rough);
-    float below = above > 0.0 ? surface.rough * surface.rough / above : 0.0;
-    // The ply's own frame, in the plane of side and toward.
+    // Two heights with the mean, deviation and skewness of all; none lies above the ply's round.
+    float above = clamp(round - height, 0.25 * rough, yarn.core_above * rough);
+    float below = above > 0.0 ? rough * rough / above : 0.0;
+    // The ply's own frame, in the plane of side and toward. Straight pieces cut its way around the yarn short; its
+    // distance from the yarn's centre stays true.
     vec2 normal = direction_or(vec3(fragment_place.xy, 0.0), vec3(0.0, 1.0, 0.0)).xy;
     mat2 ply_from_view = mat2(normal.x, -normal.y, normal.y, normal.x);
-    strand.near_place = ply_from_view * yarn_place(v, surface.height + above);
-    strand.far_place = ply_from_view * yarn_place(v, surface.height - below);
+    strand.near_place = ply_from_view * yarn_place(v, height + above, normal);
+    strand.far_place = ply_from_view * yarn_place(v, height - below, normal);
     strand.far_share = above + below > 0.0 ? above / (above + below) : 0.0;
     strand.ply_normal = normal.x * side + normal.y * toward;
     strand.ply_binormal = normal.x * toward - normal.y * side;

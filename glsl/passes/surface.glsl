@@ -18,9 +18,10 @@
 // Means over what is covered.
 struct Surface {
     float coverage;
-    float height;  // above the ply's centre, as a share of the section's depth
+    float height;  // above the ply's centre, as a share of the round's at the same place across
     float rough;   // deviation of the height
-    vec2 slope;    // along side and toward, per radian of the texture's turn, as shares of width and depth
+    vec2 slope;    // what migration adds along side and toward, per radian of the texture's turn, as shares of width
+                   // and depth
     vec3 spread;   // variances of the slopes, and their covariance
     vec4 normals;  // means of sin phi, cos phi, sin 2 phi, cos 2 phi
 };

@@ -70,7 +70,7 @@ struct Yarn {
     float core_extent;      // distance from the ply's centre that the core's texture spans, as share of the ellipse
     float core_height;      // mean height of the core's surface over that of its ellipse
     uint core_rows;         // texels across the core's texture
-    uint core_columns;      // texels along it, over one turn
+    float core_above;       // of the two heights that stand for all: the upper one above their mean, per deviation
     float core_thickness[CORE_LEVELS]; // farthest fiber of each level, as share of the ellipse
     uint slot_stride;       // between the fibers of successive slots: glsl/yarn/detail.glsl
     float reach;            // of anything, hairs included, from the yarn's centre

@@ -122,7 +122,7 @@ pub fn yarn(fabric: &Fabric, quality: &QualityTable, bakes: &Bakes, first_piece:
         core_extent: core.map_or(1.0, |core| core.extent) as f32,
         core_height: core.map_or(0.0, |core| core.height_share) as f32,
         core_rows: core.map_or(1, |core| core.mips[0].rows),
-        core_columns: core.map_or(1, |core| core.mips[0].columns),
+        core_above: core.map_or(1.0, |core| core.height_above) as f32,
         core_thickness: core.map_or([0.0; 8], |core| core.thickness.map(|t| t as f32)),
         slot_stride: slot_stride(params.fiber_count()),
         reach: flyaways.reach_mm as f32,

@@ -136,31 +136,63 @@ impl<'a> PlySurface<'a> {
         if round > 0.0 { (found / round).clamp(0.0, 1.0) } else { 0.0 }
     }
 
+    /// Of two heights that stand for all that is seen, weighted so that mean, deviation and skewness are theirs: how
+    /// far the upper one lies above the mean, as a share of the deviation (the two-point Gauss rule). Heights are
+    /// shares of the round's.
+    pub fn height_above(&self) -> f64 {
+        let mut heights = Vec::new();
+        self.for_each_shown(|_, sample, fiber| heights.push(height_share(sample, fiber, self.grid.extent)));
+        let mean_of =
+            |f: &dyn Fn(f64) -> f64| heights.iter().map(|h| f(*h)).sum::<f64>() / heights.len() as f64;
+        let mean = mean_of(&|h| h);
+        let deviation = mean_of(&|h| (h - mean).powi(2)).sqrt();
+        // Nothing seen, or all of it as high.
+        if deviation.is_nan() || deviation < 1e-9 {
+            return 1.0;
+        }
+        let skewness = mean_of(&|h| (h - mean).powi(3)) / deviation.powi(3);
+        0.5 * (skewness.hypot(2.0) + skewness)
+    }
+
+    /// Calls back for each sample that shows a fiber: its column, row, and the fiber at its place of the turn.
+    fn for_each_shown(&self, mut call: impl FnMut([usize; 2], &Sample, &Seen)) {
+        let rows = self.grid.rows * SAMPLES[1];
+        let columns = (self.grid.columns * SAMPLES[0]) as f64;
+        for (column, samples) in self.samples.chunks_exact(rows).enumerate() {
+            let turn = (column as f64 + 0.5) / columns;
+            let fibers: Vec<Seen> = self.fibers.iter().map(|fiber| seen(fiber, self.yarn, turn)).collect();
+            for (row, sample) in samples.iter().enumerate().filter(|(_, s)| s.rank != u32::MAX) {
+                call([column, row], sample, &fibers[sample.rank as usize]);
+            }
+        }
+    }
+
     /// The texels, row by row.
     pub fn texels(&self) -> Vec<Moments> {
         let [along, across] = SAMPLES;
-        let rows = self.grid.rows * across;
-        let columns = self.grid.columns * along;
         let mut texels = vec![Moments::default(); self.grid.columns * self.grid.rows];
-        for column in 0..columns {
-            let turn = (column as f64 + 0.5) / columns as f64;
-            let fibers: Vec<Seen> = self.fibers.iter().map(|fiber| seen(fiber, self.yarn, turn)).collect();
-            for row in 0..rows {
-                let sample = &self.samples[column * rows + row];
-                if sample.rank != u32::MAX {
-                    let texel = &mut texels[row / across * self.grid.columns + column / along];
-                    *texel = *texel + moments(sample, &fibers[sample.rank as usize]);
-                }
-            }
-        }
+        self.for_each_shown(|[column, row], sample, fiber| {
+            let texel = &mut texels[row / across * self.grid.columns + column / along];
+            *texel = *texel + moments(sample, fiber, self.grid.extent);
+        });
         texels.into_iter().map(|texel| texel * (1.0 / (along * across) as f64)).collect()
     }
 }
 
-fn moments(sample: &Sample, fiber: &Seen) -> Moments {
-    let [s, d] = [fiber.across_slope, fiber.height_slope];
+/// Height of what a sample shows as a share of the ply's round above the fiber's place across, -1 to 1.
+fn height_share(sample: &Sample, fiber: &Seen, extent: f64) -> f64 {
+    let round = (extent * extent - fiber.across * fiber.across).max(0.0).sqrt();
+    if round > 0.0 { (sample.height / round).clamp(-1.0, 1.0) } else { 0.0 }
+}
+
+/// What hardly depends on the place across, so that a texel of a coarse level, which spans the whole ply, says at
+/// each place what is seen there: the height as a share of the round's, -1 to 1, and of the slopes what migration
+/// adds to those of a circle, which are the height's opposite and the place across.
+fn moments(sample: &Sample, fiber: &Seen, extent: f64) -> Moments {
+    let height = height_share(sample, fiber, extent);
+    let [s, d] = [fiber.across_slope + fiber.height, fiber.height_slope - fiber.across];
     let mut one = Moments::round(f64::from(sample.across));
-    one.shape = [1.0, sample.height, s, d];
-    one.spread = [s * s, d * d, s * d, sample.height * sample.height];
+    one.shape = [1.0, height, s, d];
+    one.spread = [s * s, d * d, s * d, height * height];
     one
 }

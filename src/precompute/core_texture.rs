@@ -16,9 +16,9 @@ pub struct Moments {
     /// sin phi, cos phi, sin 2 phi, cos 2 phi of the normal's azimuth about its fiber; 0 faces the viewer, pi/2
     /// points up the rows. (The 2D normal of the paper is the first two.)
     pub normals: [f64; 4],
-    /// Coverage; height above the ply's centre as a share of the ellipse; how fast the fiber moves up the rows
-    /// and toward the viewer per radian of turn, likewise. (The last two are the paper's 3D direction, for any
-    /// twist.)
+    /// Coverage; height above the ply's centre as a share of the round's at the same place across; what migration
+    /// adds to how fast the fiber moves up the rows and toward the viewer per radian of turn, as shares of the
+    /// ellipse. (The last two are the paper's 3D direction, for any twist.)
     pub shape: [f64; 4],
     /// Squares of the last two, their product, and the square of the height.
     pub spread: [f64; 4],
@@ -63,6 +63,9 @@ pub struct CoreMip {
     pub texels: Vec<Moments>,
 }
 
+/// Rows of the coarsest level of the core's texture.
+const FEWEST_ROWS: u32 = 16;
+
 /// The baked texture. Layer `ply * CORE_LEVELS + level` is the surface of the fibers of a ply that are not drawn
 /// one by one at a level; the last layer is a single fiber, which fills all rows.
 #[derive(Clone, Debug)]
@@ -79,6 +82,9 @@ pub struct CoreTexture {
     pub ranks: u32,
     /// Mean height of the whole ply's surface over that of a circle as thick.
     pub height_share: f64,
+    /// Of two heights that stand for all at a place, the upper one above their mean, as a share of the heights'
+    /// deviation: 1 where they are not skewed, less where a few lie far below the rest.
+    pub height_above: f64,
 }
 
 /// Bakes the texture of a yarn. `fibers` is its table, `rows` a power of two, and the innermost fibers that
@@ -92,11 +98,12 @@ pub fn bake_core(yarn: &YarnParams, fibers: &[Fiber], rows: u32, visible_share: 
     let whole = |fibers: &Vec<Fiber>| {
         let mut surface = PlySurface::new(grid, yarn, fibers);
         (0..fibers.len()).for_each(|rank| surface.add(rank));
-        (surface.visible_shares(), surface.height_share(grid.extent))
+        (surface.visible_shares(), surface.height_share(grid.extent), surface.height_above())
     };
-    let seen: Vec<(Vec<f64>, f64)> = plies.par_iter().map(whole).collect();
-    let ranks = seen.iter().map(|(shares, _)| ranks_drawn(shares, visible_share)).max().unwrap_or(0);
-    let height_share = seen.iter().map(|(_, height)| height).sum::<f64>() / f64::from(yarn.ply_count);
+    let seen: Vec<(Vec<f64>, f64, f64)> = plies.par_iter().map(whole).collect();
+    let ranks = seen.iter().map(|(shares, ..)| ranks_drawn(shares, visible_share)).max().unwrap_or(0);
+    let height_share = seen.iter().map(|(_, height, _)| height).sum::<f64>() / f64::from(yarn.ply_count);
+    let height_above = seen.iter().map(|(.., above)| above).sum::<f64>() / f64::from(yarn.ply_count);
 
     let mut layers: Vec<Vec<Moments>> =
         plies.par_iter().flat_map_iter(|fibers| ply_levels(grid, yarn, fibers, ranks)).collect();
@@ -114,6 +121,7 @@ pub fn bake_core(yarn: &YarnParams, fibers: &[Fiber], rows: u32, visible_share: 
         thickness,
         ranks,
         height_share,
+        height_above,
     }
 }
 
@@ -159,10 +167,11 @@ fn single_fiber(grid: &Grid) -> Vec<Moments> {
     (0..grid.rows).flat_map(|r| vec![row(r); grid.columns]).collect()
 }
 
-/// Halves both sides until one texel is left.
+/// Halves both sides until as few rows are left as tell a ply's edges from its middle: from far away, a picture's
+/// samples see single places across it.
 fn mip_chain(base: CoreMip, layers: usize) -> Vec<CoreMip> {
     let mut mips = vec![base];
-    while let Some(last) = mips.last().filter(|mip| mip.columns > 1 || mip.rows > 1) {
+    while let Some(last) = mips.last().filter(|mip| mip.rows > FEWEST_ROWS) {
         let mip = halved(last, layers);
         mips.push(mip);
     }

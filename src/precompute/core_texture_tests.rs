@@ -72,15 +72,18 @@ fn the_turn_tiles() {
 }
 
 #[test]
-fn mips_are_averages_and_the_last_is_the_whole_layer() {
+fn mips_are_averages_and_the_last_still_tells_edges_from_the_middle() {
     let (_, texture) = baked("silk1");
     let last = texture.mips.last().unwrap();
-    assert_eq!((last.columns, last.rows, last.texels.len() as u32), (1, 1, texture.layers));
-    for index in 0..texture.layers {
-        let all = layer(&texture, index);
-        let mean = all.iter().copied().fold(Moments::default(), Add::add) * (1.0 / all.len() as f64);
-        let found = last.texels[index as usize];
-        for (a, b) in mean.shape.iter().zip(found.shape).chain(mean.normals.iter().zip(found.normals)) {
+    assert_eq!((last.columns, last.rows), (4 * FEWEST_ROWS, FEWEST_ROWS));
+    let mean = |texels: &[Moments]| {
+        texels.iter().copied().fold(Moments::default(), Add::add) * (1.0 / texels.len() as f64)
+    };
+    for (index, texels) in last.texels.chunks_exact((last.columns * last.rows) as usize).enumerate() {
+        let mean_of_all = mean(layer(&texture, index as u32));
+        let found = mean(texels);
+        let pairs = mean_of_all.shape.iter().zip(found.shape);
+        for (a, b) in pairs.chain(mean_of_all.normals.iter().zip(found.normals)) {
             assert!((a - b).abs() < 1e-12);
         }
     }
@@ -96,7 +99,8 @@ fn the_single_fiber_shows_its_round_self() {
         assert!((m.normals[0] - across).abs() < 1e-9 && m.shape == [1.0, 0.0, 0.0, 0.0]);
     }
     // Seen from afar: the means over a disc's projection, 0, pi/4, 0 and 1/3.
-    let all = texture.mips.last().unwrap().texels[texture.layers as usize - 1].normals;
+    let sum = texels.iter().copied().fold(Moments::default(), Add::add);
+    let all = sum.normals.map(|normal| normal / texels.len() as f64);
     let expected = [0.0, std::f64::consts::FRAC_PI_4, 0.0, 1.0 / 3.0];
     assert!(all.iter().zip(expected).all(|(a, b)| (a - b).abs() < 2e-3), "{all:?}");
 }
@@ -108,4 +112,29 @@ fn a_share_of_nothing_hides_only_what_is_never_seen_and_a_share_of_all_draws_no_
     let ranks = |share: f64| bake_core(&yarn, &fibers, ROWS, share).ranks;
     assert!(ranks(0.0) > ranks(0.05) && ranks(0.05) > ranks(0.3));
     assert_eq!(ranks(1.1), 0);
+}
+
+#[test]
+fn the_upper_of_two_heights_is_nearer_where_few_fibers_lie_deep() {
+    for preset in presets::yarn_names() {
+        let (_, texture) = baked(preset);
+        // More fibers are seen near the round than far below it; as a share of the deviation 1 is no skewness.
+        assert!((0.4..1.0).contains(&texture.height_above), "{preset}: {}", texture.height_above);
+    }
+}
+
+#[test]
+fn heights_and_slopes_hardly_depend_on_the_place_across() {
+    let (_, texture) = baked("worsted_3ply");
+    let (columns, whole) = (texture.mips[0].columns as usize, layer(&texture, CORE_LEVELS - 1));
+    let row_mean = |row: usize| {
+        let sum = whole[row * columns..][..columns].iter().copied().fold(Moments::default(), Add::add);
+        sum.shape.map(|value| value / sum.shape[0])
+    };
+    let rows: Vec<[f64; 4]> = (ROWS as usize / 6..ROWS as usize * 5 / 6).map(row_mean).collect();
+    for (k, most) in [(1, 0.4), (2, 0.25), (3, 0.25)] {
+        let low = rows.iter().map(|row| row[k]).fold(f64::INFINITY, f64::min);
+        let high = rows.iter().map(|row| row[k]).fold(f64::NEG_INFINITY, f64::max);
+        assert!(high - low < most, "moment {k} runs from {low} to {high}");
+    }
 }

@@ -100,7 +100,7 @@ pub fn layouts() -> Vec<Layout> {
             core_extent,
             core_height,
             core_rows,
-            core_columns,
+            core_above,
             core_thickness,
             slot_stride,
             reach,
