@@ -136,21 +136,27 @@ impl<'a> PlySurface<'a> {
         if round > 0.0 { (found / round).clamp(0.0, 1.0) } else { 0.0 }
     }
 
-    /// Of two heights that stand for all that is seen, weighted so that mean, deviation and skewness are theirs: how
-    /// far the upper one lies above the mean, as a share of the deviation (the two-point Gauss rule). Heights are
-    /// shares of the round's.
+    /// Of two heights that stand for all that is seen at one place across, weighted so that mean, deviation and
+    /// skewness are theirs: how far the upper one lies above the mean, as a share of the deviation (the two-point
+    /// Gauss rule). Heights are shares of the round's, their deviation and skewness means over places.
     pub fn height_above(&self) -> f64 {
-        let mut heights = Vec::new();
-        self.for_each_shown(|_, sample, fiber| heights.push(height_share(sample, fiber, self.grid.extent)));
-        let mean_of =
-            |f: &dyn Fn(f64) -> f64| heights.iter().map(|h| f(*h)).sum::<f64>() / heights.len() as f64;
-        let mean = mean_of(&|h| h);
-        let deviation = mean_of(&|h| (h - mean).powi(2)).sqrt();
+        let mut rows = vec![Vec::new(); self.grid.rows * SAMPLES[1]];
+        self.for_each_shown(|[_, row], sample, fiber| {
+            rows[row].push(height_share(sample, fiber, self.grid.extent));
+        });
+        let (mut squares, mut cubes, mut count) = (0.0, 0.0, 0.0);
+        for heights in rows.iter().filter(|heights| !heights.is_empty()) {
+            let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+            squares += heights.iter().map(|h| (h - mean).powi(2)).sum::<f64>();
+            cubes += heights.iter().map(|h| (h - mean).powi(3)).sum::<f64>();
+            count += heights.len() as f64;
+        }
+        let deviation = (squares / f64::max(count, 1.0)).sqrt();
         // Nothing seen, or all of it as high.
-        if deviation.is_nan() || deviation < 1e-9 {
+        if deviation < 1e-9 {
             return 1.0;
         }
-        let skewness = mean_of(&|h| (h - mean).powi(3)) / deviation.powi(3);
+        let skewness = cubes / count / deviation.powi(3);
         0.5 * (skewness.hypot(2.0) + skewness)
     }
 

@@ -29,9 +29,8 @@ pub struct ShadowTable {
 }
 
 impl Default for ShadowTable {
-    /// None: far away, core fibers do not yet keep the mean color of shadowed fibers within 3%.
     fn default() -> Self {
-        Self { map: false, inside: false, resolution: 1024 }
+        Self { map: true, inside: true, resolution: 1024 }
     }
 }
 

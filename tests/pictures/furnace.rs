@@ -7,10 +7,11 @@ use worsted::bsdf::params::FiberParams;
 use worsted::io::picture::LinearImage;
 
 const SIZE: [u32; 2] = [120, 90];
-const SETS: [&str; 5] = [
+const SETS: [&str; 6] = [
     "light=[]",
     "ambient.radiance=[1, 1, 1]",
     "occlusion.mode=\"none\"",
+    "shadow.self=false",
     "camera.distance_mm=14",
     "camera.target_mm=[0, 0, 0]",
 ];
