@@ -154,7 +154,7 @@ impl Renderer {
 
     /// The camera the scene asks for.
     pub fn camera(&self) -> Camera {
-        camera(&self.scene, self.request.size)
+        self.scene.camera(self.request.size)
     }
 
     /// Looks at the scene from elsewhere from now on.
@@ -270,10 +270,7 @@ fn run(
 
 /// The camera a scene asks for, at a picture size.
 pub fn camera(scene: &Scene, size: [u32; 2]) -> Camera {
-    let origin = scene.origin_mm;
-    let points = scene.fabrics.iter().flat_map(|fabric| fabric.hull_points()).map(move |p| p - origin);
-    let radius = scene.fabrics.iter().map(|f| f.yarn.outer_radius_mm()).fold(0.0, f64::max);
-    Camera::new(&scene.file.camera, size, origin, points, radius)
+    scene.camera(size)
 }
 
 /// Milliseconds of a duration.

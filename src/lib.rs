@@ -8,7 +8,8 @@
 //! 3. [`yarn`] is the f64 truth: plies, fibers, migration, loops and hairs along a centre line.
 //! 4. [`precompute`] works out tables on the CPU.
 //! 5. [`frame`] uploads the scene once and draws pictures, one of [`passes`] after the other.
-//! 6. [`metrics`] says how far a picture is from another.
+//! 6. [`reference`](mod@reference) traces the same scene over its real fibers, slowly: the judge.
+//! 7. [`metrics`] says how far a picture is from another.
 //!
 //! ```no_run
 //! use worsted::frame::{Renderer, Request, sampling::Sampling};
@@ -37,6 +38,7 @@ pub mod math;
 pub mod metrics;
 pub mod passes;
 pub mod precompute;
+pub mod reference;
 pub mod scene;
 pub mod shaders;
 pub mod vulkan;

@@ -42,6 +42,9 @@ pub struct Common {
 pub enum Command {
     /// Draw a scene, or a bare yarn file, into a picture.
     Render(Render),
+    /// Trace a scene, or a bare yarn file, over its real fibers: slow, and what `render` is judged by. Stopped at
+    /// any moment, the same command goes on from there.
+    Reference(Reference),
     /// Generate fabric.
     Knit(Knit),
     /// Say what a yarn file holds.
@@ -86,6 +89,55 @@ pub struct Render {
     /// Say what was built and what was left out, and why.
     #[arg(long)]
     pub explain: bool,
+}
+
+/// `worsted reference`.
+#[derive(Debug, ClapArgs)]
+pub struct Reference {
+    /// A scene (`.toml`) or a yarn file (`.bcc`, `.obj`).
+    pub scene: PathBuf,
+    /// The picture: `.exr` as linear radiance with the variance of each pixel's mean, `.png` as displayed. May be
+    /// given more than once; beside the first, named `.part`, is kept what was done so far.
+    #[arg(short, long, required = true)]
+    pub output: Vec<PathBuf>,
+    /// Width and height in pixels.
+    #[arg(long, default_value = "1280x960", value_name = "WxH")]
+    pub size: String,
+    /// Samples per pixel.
+    #[arg(long, default_value_t = 64, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1 << 20))]
+    pub spp: u64,
+    /// Times that light goes on from fiber to fiber; 0 is what `render` draws. The diffuse lobe stands for them:
+    /// follow them with `--set shading.diffuse=false`.
+    #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u32).range(..=10_000))]
+    pub bounces: u32,
+    /// Camera, as `worsted render` takes it.
+    #[arg(long, value_name = "yaw=30,pitch=20,distance=400,target=0:0:0|fit", allow_hyphen_values = true)]
+    pub camera: Option<String>,
+    /// Set any scene key by its path; `null` removes it. May be given more than once.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Seed of everything random.
+    #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
+    pub seed: Option<u64>,
+    /// Write statistics as JSON; `-` for standard output.
+    #[arg(long, value_name = "FILE")]
+    pub stats: Option<PathBuf>,
+    /// Most that straight pieces of a fiber depart from it, in radii of the fiber, 0.0001 to 10.
+    #[arg(long, default_value_t = 0.1, value_name = "X")]
+    pub chord_error: f64,
+    /// Part of its own fiber that a ray ignores along it, both ways, in diameters of the fiber, 0 to 1000; what it
+    /// goes through before it leaves the fiber is ignored besides.
+    #[arg(long, default_value_t = 2.0, value_name = "X")]
+    pub own_fiber_diameters: f64,
+    /// Let no fiber take light from another.
+    #[arg(long)]
+    pub unshadowed: bool,
+    /// Begin anew, whatever was done so far.
+    #[arg(long)]
+    pub fresh: bool,
+    /// Stop after so many passes of 4 samples, with a picture of those; the same command without this goes on.
+    #[arg(long, value_name = "N")]
+    pub stop_after_passes: Option<u64>,
 }
 
 /// `worsted knit`.

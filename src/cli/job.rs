@@ -37,15 +37,7 @@ impl RenderJob {
         if let Some(stats) = args.stats.as_deref().filter(|path| *path != Path::new("-")) {
             check_target(stats)?;
         }
-        let mut assignments = Vec::new();
-        if let Some(camera) = &args.camera {
-            assignments.extend(camera_assignments(camera)?);
-        }
-        if let Some(seed) = args.seed {
-            assignments.push(format!("seed={seed}"));
-        }
-        // After the shorthands: --set has the last word.
-        assignments.extend(args.set.iter().cloned());
+        let assignments = assignments(args.camera.as_deref(), args.seed, &args.set)?;
         let request = Request {
             size: parse_size(&args.size)?,
             sampling: args.samples,
@@ -59,8 +51,23 @@ impl RenderJob {
     }
 }
 
+/// What `--camera`, `--seed` and `--set` set, in an order that gives `--set` the last word.
+///
+/// # Errors
+/// A camera that makes no sense.
+pub(super) fn assignments(
+    camera: Option<&str>,
+    seed: Option<u64>,
+    set: &[String],
+) -> Result<Vec<String>, Error> {
+    let mut assignments = camera.map(camera_assignments).transpose()?.unwrap_or_default();
+    assignments.extend(seed.map(|seed| format!("seed={seed}")));
+    assignments.extend(set.iter().cloned());
+    Ok(assignments)
+}
+
 /// `1280x960`.
-fn parse_size(text: &str) -> Result<[u32; 2], Error> {
+pub(super) fn parse_size(text: &str) -> Result<[u32; 2], Error> {
     let side = |s: &str| s.parse::<u32>().ok().filter(|n| (1..=MAX_SIDE).contains(n));
     let fits = |[w, h]: &[u32; 2]| u64::from(*w) * u64::from(*h) <= MAX_PIXELS;
     let parsed = text.split_once('x').and_then(|(w, h)| Some([side(w)?, side(h)?])).filter(fits);

@@ -6,6 +6,7 @@ mod info;
 pub mod job;
 mod knit;
 mod output;
+mod reference;
 mod render;
 
 use crate::error::Error;
@@ -21,6 +22,9 @@ use std::sync::Arc;
 pub fn run(args: &Args) -> Result<(), Error> {
     match &args.command {
         Command::Render(render) => render::run(&job::RenderJob::new(render, &args.common)?),
+        Command::Reference(reference) => {
+            reference::run(&reference::ReferenceJob::new(reference, &args.common)?)
+        }
         Command::Knit(knit) => knit::run(knit),
         Command::Info(info) => info::run(info),
         Command::Doctor => doctor::run(&args.common),

@@ -4,6 +4,7 @@ pub mod bcc;
 pub mod curves;
 pub mod environment;
 pub mod error;
+pub mod measured;
 pub mod obj;
 pub mod picture;
 pub mod repair;

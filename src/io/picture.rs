@@ -203,13 +203,13 @@ pub fn read_hdr(path: &Path) -> Result<LinearImage, FileError> {
 }
 
 /// A decoder's complaint as one line.
-fn refused(path: &Path, doing: &str, error: &dyn std::fmt::Display) -> FileError {
+pub(super) fn refused(path: &Path, doing: &str, error: &dyn std::fmt::Display) -> FileError {
     let message = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
     FileError::new(path, Place::File, format!("cannot {doing} the picture: {message}"))
 }
 
 /// The whole file, whose length is checked while reading, since devices and pipes state none.
-fn read_whole(path: &Path) -> Result<Vec<u8>, FileError> {
+pub(super) fn read_whole(path: &Path) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(|e| FileError::io(path, "read", &e))?;
     file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(|e| FileError::io(path, "read", &e))?;
@@ -232,7 +232,7 @@ fn decode(path: &Path, bytes: &[u8], format: ImageFormat) -> Result<DynamicImage
 
 /// Bounds what the decoder will allocate for compressed blocks: `image` limits the display window alone, while
 /// blocks are as large as the data window, the tiles and the number of channels make them.
-fn check_exr_header(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+pub(super) fn check_exr_header(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let meta =
         exr::meta::MetaData::read_from_buffered(bytes, false).map_err(|e| refused(path, "read", &e))?;
     for (layer, header) in meta.headers.iter().enumerate() {

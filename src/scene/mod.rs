@@ -17,6 +17,7 @@ pub mod yarn_table;
 use crate::io::error::FileError;
 use crate::io::picture::LinearImage;
 use crate::knit::error::KnitError;
+use camera::Camera;
 pub use fabric::Fabric;
 pub use file::SceneFile;
 use glam::DVec3;
@@ -53,4 +54,14 @@ pub struct Scene {
     pub origin_mm: DVec3,
     /// The picture of the light from everywhere, if the file names one that gives light.
     pub environment: Option<Arc<LinearImage>>,
+}
+
+impl Scene {
+    /// The camera that the scene asks for, for a picture of `size` pixels.
+    pub fn camera(&self, size: [u32; 2]) -> Camera {
+        let origin = self.origin_mm;
+        let points = self.fabrics.iter().flat_map(Fabric::hull_points).map(move |p| p - origin);
+        let radius_mm = self.fabrics.iter().map(|f| f.yarn.outer_radius_mm()).fold(0.0, f64::max);
+        Camera::new(&self.file.camera, size, origin, points, radius_mm)
+    }
 }

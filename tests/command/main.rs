@@ -4,6 +4,7 @@
 
 mod errors;
 mod process;
+mod reference;
 
 use process::{Workplace, assert_good, error_fault, swatch};
 use serde_json::Value;
