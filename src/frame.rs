@@ -22,6 +22,7 @@ use crate::scene::features::Features;
 use crate::scene::file::CameraTable;
 use crate::scene::light::{LightTable, check_lights};
 use crate::scene::{Scene, SceneError};
+use crate::shaders::ShaderSet;
 use crate::vulkan::{Buffer, Device, ImageState, MemoryKind, VulkanError, vk};
 use crate::yarn::table::fiber_table;
 use bake::Bakes;
@@ -84,6 +85,20 @@ impl Renderer {
     /// # Errors
     /// Those of the device: too large, out of memory, lost.
     pub fn new(device: &Arc<Device>, scene: Scene, request: Request) -> Result<Self, VulkanError> {
+        Self::with_shaders(device, scene, request, ShaderSet::default())
+    }
+
+    /// The same with other shaders between yarn and radiance.
+    ///
+    /// # Errors
+    /// Those of the device.
+    #[doc(hidden)]
+    pub fn with_shaders(
+        device: &Arc<Device>,
+        scene: Scene,
+        request: Request,
+        shaders: ShaderSet,
+    ) -> Result<Self, VulkanError> {
         let samples = request.sampling.multisampling();
         let targets = Targets::new(device, request.size, samples)?;
         let uniform = vk::BufferUsageFlags::UNIFORM_BUFFER;
@@ -105,7 +120,7 @@ impl Renderer {
             shadow_map: map.image.clone(),
         };
         let mut shadow_map = ShadowMapPass::new(map, shadow_views.clone(), TUBE_CORNERS);
-        let mut fibers = FibersPass::new(device, buffers)?;
+        let mut fibers = FibersPass::new(device, buffers)?.with_shaders(shaders);
         let mut stats = Stats::new(device, &scene, &request);
         let started = Instant::now();
         let environment = upload::environment(&scene);

@@ -9,6 +9,7 @@ use std::path::PathBuf;
 use support::golden::{Goldens, Tolerance, asks_to_bless};
 use worsted::io::picture::{DisplayImage, LinearImage, read_png, write_png};
 use worsted::math::rng::Rng;
+use worsted::math::tone::Display;
 
 const NAME: &str = "disc";
 const SIDE: u32 = 64;
@@ -68,7 +69,7 @@ fn linear_disc() -> LinearImage {
 }
 
 fn disc() -> DisplayImage {
-    DisplayImage::from_linear(&linear_disc(), 1.0).unwrap()
+    DisplayImage::from_linear(&linear_disc(), &Display::PLAIN).unwrap()
 }
 
 fn changed(change: impl Fn(usize, [u8; 4]) -> [u8; 4]) -> DisplayImage {

@@ -2,7 +2,8 @@
 
 use crate::frame::sampling::Sampling;
 use crate::knit::params::KnitParams;
-use clap::{Args as ClapArgs, Parser, Subcommand};
+use crate::reference::fibers::RealiseSettings;
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// Fiber-level knitwear, in real time.
@@ -45,6 +46,10 @@ pub enum Command {
     /// Trace a scene, or a bare yarn file, over its real fibers: slow, and what `render` is judged by. Stopped at
     /// any moment, the same command goes on from there.
     Reference(Reference),
+    /// Say how far a picture is from another.
+    Compare(Compare),
+    /// Write every fiber of a scene, for other renderers.
+    Export(Export),
     /// Generate fabric.
     Knit(Knit),
     /// Say what a yarn file holds.
@@ -138,6 +143,61 @@ pub struct Reference {
     /// Stop after so many passes of 4 samples, with a picture of those; the same command without this goes on.
     #[arg(long, value_name = "N")]
     pub stop_after_passes: Option<u64>,
+}
+
+/// `worsted compare`.
+#[derive(Debug, ClapArgs)]
+pub struct Compare {
+    /// The picture to be judged: `.exr` (linear radiance) or `.png` (as displayed).
+    pub test: PathBuf,
+    /// The picture that it should be: `.exr`, with the variance of its pixels or without, or `.png`.
+    pub reference: PathBuf,
+    /// Write FLIP of every pixel as a picture: black 0, through violet and orange, pale yellow 1 (magma).
+    #[arg(long, value_name = "FILE.png")]
+    pub heatmap: Option<PathBuf>,
+    /// End with exit code 1 where mean FLIP over the covered pixels is above this, 0 to 1.
+    #[arg(long, value_name = "FLIP")]
+    pub fail_above: Option<f64>,
+    /// Stops that an EXR is shown brighter by than it is, as a scene's `display.exposure_stops`; 0 unless given.
+    #[arg(long, value_name = "STOPS", allow_hyphen_values = true)]
+    pub exposure: Option<f64>,
+    /// Tone curve that an EXR is shown by, as a scene's `display.tone`; neutral unless given.
+    #[arg(long)]
+    pub tone: Option<ShownTone>,
+    /// Write the figures as JSON; `-` for standard output, in place of the table.
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+}
+
+/// Tone curves by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ShownTone {
+    /// As it is up to 0.8, bent above, hue kept: a scene's default.
+    Neutral,
+    /// More contrast, highlights that fade to white.
+    Filmic,
+    /// Cut at 1.
+    Clamp,
+}
+
+/// `worsted export`.
+#[derive(Debug, ClapArgs)]
+pub struct Export {
+    /// A scene (`.toml`) or a yarn file (`.bcc`, `.obj`).
+    pub scene: PathBuf,
+    /// The fibers, in mm, Y up: `.usda` as USD BasisCurves with widths; `.bcc` as polylines, their radii, yarns and
+    /// plies in a JSON file beside it.
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Most that a straight piece may depart from a fiber's axis, in radii of the fiber.
+    #[arg(long, default_value_t = RealiseSettings::default().chord_error, value_name = "RADII")]
+    pub chord_error: f64,
+    /// Set any scene key by its path; `null` removes it. May be given more than once.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Seed of everything random.
+    #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
+    pub seed: Option<u64>,
 }
 
 /// `worsted knit`.

@@ -1,7 +1,9 @@
 //! What was typed becomes a job, and the job runs: one file per command.
 
 pub mod args;
+mod compare;
 mod doctor;
+mod export;
 mod info;
 pub mod job;
 mod knit;
@@ -25,6 +27,8 @@ pub fn run(args: &Args) -> Result<(), Error> {
         Command::Reference(reference) => {
             reference::run(&reference::ReferenceJob::new(reference, &args.common)?)
         }
+        Command::Compare(compare) => compare::run(compare, &args.common),
+        Command::Export(export) => export::run(export, &args.common),
         Command::Knit(knit) => knit::run(knit),
         Command::Info(info) => info::run(info),
         Command::Doctor => doctor::run(&args.common),

@@ -182,7 +182,7 @@ impl Reader<'_> {
             }
         }
         let curve = Curve { points, closed };
-        if let Some(fault) = count_fault(&curve, basis) {
+        if let Some(fault) = count_fault(CurveRef { points: &curve.points, closed }, basis) {
             return Err(self.error(0, format!("curve {index}: {fault}")));
         }
         self.offset += COUNT_BYTES + data.len();
@@ -205,7 +205,7 @@ fn point(bytes: &[u8]) -> DVec3 {
 }
 
 /// Why a count cannot be cut into cubic pieces; curves of fewer than two points are left to the repairs.
-fn count_fault(curve: &Curve, basis: Basis) -> Option<String> {
+fn count_fault(curve: CurveRef<'_>, basis: Basis) -> Option<String> {
     let n = curve.points.len();
     if basis != Basis::Bezier || n < 2 {
         return None;
@@ -227,57 +227,98 @@ fn count_fault(curve: &Curve, basis: Basis) -> Option<String> {
 /// Curves that [`read_bcc`] would refuse (none at all, a coordinate that is not finite as f32, a Bezier
 /// count that does not fit, 2^31 points or more), or the operating system's; no file is left behind then.
 pub fn write_bcc(path: &Path, set: &CurveSet) -> Result<(), FileError> {
-    check_writable(path, set)?;
-    write_whole(path, |out| write_curves(out, set))
+    let curves = set.curves.iter().map(|curve| CurveRef { points: &curve.points, closed: curve.closed });
+    write_bcc_curves(path, set.basis, set.up_axis.unwrap_or(UpAxis::Y), curves, &|_| ())
 }
 
-fn check_writable(path: &Path, set: &CurveSet) -> Result<(), FileError> {
-    if set.curves.is_empty() {
-        return Err(FileError::new(path, Place::File, "expected at least one curve to write, found 0"));
-    }
-    for (i, curve) in set.curves.iter().enumerate() {
+/// A curve that is written from where it lies.
+#[derive(Clone, Copy, Debug)]
+pub struct CurveRef<'a> {
+    /// Its control points.
+    pub points: &'a [DVec3],
+    /// Whether the last point joins the first again.
+    pub closed: bool,
+}
+
+/// [`write_bcc`] without a copy of the points; `progress` is told how many as they are written.
+///
+/// # Errors
+/// As [`write_bcc`].
+pub fn write_bcc_curves<'a>(
+    path: &Path,
+    basis: Basis,
+    up_axis: UpAxis,
+    curves: impl Iterator<Item = CurveRef<'a>> + Clone,
+    progress: &dyn Fn(u64),
+) -> Result<(), FileError> {
+    check_writable(path, basis, curves.clone())?;
+    write_whole(path, |out| {
+        write_header(out, basis, up_axis, curves.clone())?;
+        for CurveRef { points, closed } in curves {
+            // `check_writable` has seen that the count fits an i32.
+            let count = points.len() as i32;
+            out.write_all(&(if closed { -count } else { count }).to_le_bytes())?;
+            for x in points.iter().flat_map(|p| p.to_array()) {
+                out.write_all(&(x as f32).to_le_bytes())?;
+            }
+            progress(points.len() as u64);
+        }
+        Ok(())
+    })
+}
+
+fn check_writable<'a>(
+    path: &Path,
+    basis: Basis,
+    curves: impl Iterator<Item = CurveRef<'a>>,
+) -> Result<(), FileError> {
+    let mut found = 0;
+    for (i, curve) in curves.enumerate() {
         let error = |message| Err(FileError::new(path, Place::Curve(i), message));
         if i32::try_from(curve.points.len()).is_err() {
             return error(format!("expected fewer than 2^31 points, found {}", curve.points.len()));
         }
-        if let Some(fault) = count_fault(curve, set.basis) {
+        if let Some(fault) = count_fault(curve, basis) {
             return error(fault);
         }
         if let Some(fault) = curve.points.iter().find_map(|&p| coordinate_fault(p)) {
             return error(fault);
         }
+        found = i + 1;
+    }
+    if found == 0 {
+        return Err(FileError::new(path, Place::File, "expected at least one curve to write, found 0"));
     }
     Ok(())
 }
 
-fn write_curves(out: &mut dyn Write, set: &CurveSet) -> std::io::Result<()> {
-    let kind = match set.basis {
+fn write_header<'a>(
+    out: &mut dyn Write,
+    basis: Basis,
+    up_axis: UpAxis,
+    curves: impl Iterator<Item = CurveRef<'a>>,
+) -> std::io::Result<()> {
+    let kind = match basis {
         Basis::CatmullRom => b"C0",
         Basis::BSpline => b"BS",
         Basis::Bezier => b"BZ",
         Basis::Polyline => b"PL",
     };
-    let up = match set.up_axis {
-        Some(UpAxis::X) => 0,
-        Some(UpAxis::Y) | None => 1,
-        Some(UpAxis::Z) => 2,
+    let up = match up_axis {
+        UpAxis::X => 0,
+        UpAxis::Y => 1,
+        UpAxis::Z => 2,
     };
+    let sum =
+        |(count, points): (u64, u64), curve: CurveRef<'_>| (count + 1, points + curve.points.len() as u64);
+    let (count, points) = curves.fold((0, 0), sum);
     out.write_all(&BCC_MAGIC)?;
     out.write_all(&[WIDTHS, kind[0], kind[1], 3, up])?;
-    out.write_all(&(set.curves.len() as u64).to_le_bytes())?;
-    out.write_all(&(set.point_count() as u64).to_le_bytes())?;
+    out.write_all(&count.to_le_bytes())?;
+    out.write_all(&points.to_le_bytes())?;
     let mut info = [0; 40];
     info[..7].copy_from_slice(b"worsted");
-    out.write_all(&info)?;
-    for curve in &set.curves {
-        // `check_writable` has seen that the count fits an i32.
-        let count = curve.points.len() as i32;
-        out.write_all(&(if curve.closed { -count } else { count }).to_le_bytes())?;
-        for x in curve.points.iter().flat_map(|p| p.to_array()) {
-            out.write_all(&(x as f32).to_le_bytes())?;
-        }
-    }
-    Ok(())
+    out.write_all(&info)
 }
 
 #[cfg(test)]
@@ -328,7 +369,10 @@ mod tests {
     fn a_closed_bezier_may_repeat_its_first_point() {
         let mut loop_ = curve(7, true);
         loop_.points[6] = loop_.points[0];
-        assert_eq!(count_fault(&loop_, Basis::Bezier), None);
-        assert_eq!(count_fault(&curve(1, false), Basis::Bezier), None);
+        assert_eq!(count_fault(CurveRef { points: &loop_.points, closed: true }, Basis::Bezier), None);
+        assert_eq!(
+            count_fault(CurveRef { points: &curve(1, false).points, closed: false }, Basis::Bezier),
+            None
+        );
     }
 }

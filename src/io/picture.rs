@@ -4,11 +4,13 @@ use std::fs::File;
 use std::io::{Cursor, Read};
 use std::path::Path;
 
+use glam::DVec3;
 use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Limits};
 
 use crate::io::error::{FileError, Place};
 use crate::io::whole::write_whole;
-use crate::math::color::srgb_from_linear;
+use crate::math::color::{linear_from_srgb, srgb_from_linear};
+use crate::math::tone::Display;
 
 /// The longest side of a picture that is read or written, in pixels.
 pub const MAX_SIDE: u32 = 16_384;
@@ -114,6 +116,22 @@ impl LinearImage {
         let row_length = self.width.max(1) as usize;
         Err(NotFinite { x: (index % row_length) as u32, y: (index / row_length) as u32, value })
     }
+
+    /// The light in [0, 1] that a display gives of this radiance over black: exposed, then by the tone curve.
+    /// Coverage stays.
+    pub fn shown(&self, display: &Display) -> Result<Self, NotDisplayable> {
+        self.check_shape()?;
+        self.check_finite()?;
+        if !(display.exposure.is_finite() && display.exposure > 0.0) {
+            return Err(NotDisplayable::Exposure(display.exposure));
+        }
+        let pixel = |&[r, g, b, a]: &[f32; 4]| {
+            let exposed = DVec3::new(r.into(), g.into(), b.into()) * display.exposure;
+            let [r, g, b] = display.tone.apply(exposed).as_vec3().to_array();
+            [r, g, b, a]
+        };
+        Ok(Self { width: self.width, height: self.height, pixels: self.pixels.iter().map(pixel).collect() })
+    }
 }
 
 impl DisplayImage {
@@ -127,24 +145,31 @@ impl DisplayImage {
         BadShape::check(self.width, self.height, self.pixels.len())
     }
 
-    /// The plainest display transform: radiance times `exposure` (a factor, 1 = as is), clamped to [0, 1],
-    /// sRGB-encoded and rounded to bytes. Coverage is rounded too, but never from above 0 down to 0.
-    pub fn from_linear(image: &LinearImage, exposure: f64) -> Result<Self, NotDisplayable> {
-        image.check_shape()?;
-        image.check_finite()?;
-        if !(exposure.is_finite() && exposure > 0.0) {
-            return Err(NotDisplayable::Exposure(exposure));
-        }
-        let byte = |linear: f32| {
-            let encoded = srgb_from_linear((f64::from(linear) * exposure).clamp(0.0, 1.0));
-            (encoded * 255.0).round() as u8
-        };
+    /// The picture as it is shown: [`LinearImage::shown`], sRGB-encoded and rounded to bytes. Coverage is rounded
+    /// too, but never from above 0 down to 0.
+    pub fn from_linear(image: &LinearImage, display: &Display) -> Result<Self, NotDisplayable> {
+        let shown = image.shown(display)?;
+        let byte = |linear: f32| (srgb_from_linear(f64::from(linear)) * 255.0).round() as u8;
         let coverage = |alpha: f32| {
             let rounded = (f64::from(alpha).clamp(0.0, 1.0) * 255.0).round() as u8;
             rounded.max(u8::from(alpha > 0.0))
         };
-        let pixels = image.pixels.iter().map(|&[r, g, b, a]| [byte(r), byte(g), byte(b), coverage(a)]);
+        let pixels = shown.pixels.iter().map(|&[r, g, b, a]| [byte(r), byte(g), byte(b), coverage(a)]);
         Ok(Self { width: image.width, height: image.height, pixels: pixels.collect() })
+    }
+
+    /// The light that it shows over black, linear in [0, 1]: alpha, which a PNG keeps apart, is multiplied in.
+    pub fn light(&self) -> LinearImage {
+        let light = |byte: u8, alpha: f64| (linear_from_srgb(f64::from(byte) / 255.0) * alpha) as f32;
+        let pixel = |&[r, g, b, a]: &[u8; 4]| {
+            let alpha = f64::from(a) / 255.0;
+            [light(r, alpha), light(g, alpha), light(b, alpha), alpha as f32]
+        };
+        LinearImage {
+            width: self.width,
+            height: self.height,
+            pixels: self.pixels.iter().map(pixel).collect(),
+        }
     }
 }
 

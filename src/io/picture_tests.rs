@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::*;
 use crate::math::rng::Rng;
+use crate::math::tone::Tone;
 
 fn noise(width: u32, height: u32, seed: u64) -> LinearImage {
     let mut rng = Rng::new(seed, &[]);
@@ -12,7 +13,7 @@ fn noise(width: u32, height: u32, seed: u64) -> LinearImage {
 }
 
 fn byte_noise(width: u32, height: u32, seed: u64) -> DisplayImage {
-    DisplayImage::from_linear(&noise(width, height, seed), 1.0).unwrap()
+    DisplayImage::from_linear(&noise(width, height, seed), &Display::PLAIN).unwrap()
 }
 
 fn folder() -> (tempfile::TempDir, PathBuf) {
@@ -84,13 +85,17 @@ fn refuses_to_write_a_wrong_shape_and_leaves_the_old_file() {
     assert_eq!(names(&folder), ["picture"]);
 }
 
+fn exposed(exposure: f64) -> Display {
+    Display { exposure, ..Display::PLAIN }
+}
+
 #[test]
 fn what_cannot_be_shown_is_refused_and_named() {
     let mut image = noise(5, 4, 5);
-    assert!(DisplayImage::from_linear(&image, f64::NAN).is_err());
-    assert!(DisplayImage::from_linear(&image, 0.0).is_err());
+    assert!(DisplayImage::from_linear(&image, &exposed(f64::NAN)).is_err());
+    assert!(DisplayImage::from_linear(&image, &exposed(0.0)).is_err());
     image.pixels[13][2] = f32::NEG_INFINITY;
-    let message = DisplayImage::from_linear(&image, 1.0).unwrap_err().to_string();
+    let message = DisplayImage::from_linear(&image, &Display::PLAIN).unwrap_err().to_string();
     assert!(message.starts_with("pixel (3, 2):") && message.contains("-inf"), "{message}");
 }
 
@@ -101,10 +106,30 @@ fn the_display_transform_clamps_rounds_and_keeps_faint_coverage() {
         height: 1,
         pixels: vec![[-1.0, 0.214_041_14, 7.0, 1e-6], [0.0, 0.09, 0.5, 0.0], [1.0, 0.0, 0.0, 2.0]],
     };
-    let shown = DisplayImage::from_linear(&image, 1.0).unwrap();
+    let shown = DisplayImage::from_linear(&image, &Display::PLAIN).unwrap();
     assert_eq!(shown.pixels, [[0, 128, 255, 1], [0, 85, 188, 0], [255, 0, 0, 255]]);
-    let brighter = DisplayImage::from_linear(&image, 2.0).unwrap();
+    let brighter = DisplayImage::from_linear(&image, &exposed(2.0)).unwrap();
     assert_eq!(brighter.pixels[1], [0, 118, 255, 0]);
+}
+
+#[test]
+fn the_tone_curve_is_the_one_asked_for() {
+    let image = LinearImage::filled(1, 1, [2.0, 0.18, 0.5, 0.5]);
+    let shown = |tone| image.shown(&Display { exposure: 1.0, tone }).unwrap().pixels[0];
+    assert_eq!(shown(Tone::Clamp), [1.0, 0.18, 0.5, 0.5]);
+    // The largest component bends and takes the others with it.
+    let neutral = shown(Tone::Neutral);
+    assert!(neutral[0] < 0.98 && (neutral[1] / neutral[0] - 0.09).abs() < 1e-6, "{neutral:?}");
+    assert!((shown(Tone::Filmic)[1] - 0.267).abs() < 1e-3);
+}
+
+#[test]
+fn the_light_of_bytes_is_what_they_show_over_black() {
+    let bytes: Vec<[u8; 4]> = (0..=255).map(|v| [v, 255 - v, 7, 255]).collect();
+    let image = DisplayImage { width: 256, height: 1, pixels: bytes };
+    assert_eq!(DisplayImage::from_linear(&image.light(), &Display::PLAIN).unwrap(), image);
+    let half = DisplayImage::filled(1, 1, [188, 0, 255, 128]).light().pixels[0];
+    assert!((half[0] - 0.2515).abs() < 1e-3 && half[1] == 0.0 && half[2] == half[3], "{half:?}");
 }
 
 /// Reads bytes as a picture of either kind; what matters is that it comes back, with a one-line error or a

@@ -28,6 +28,51 @@ pub fn tone_filmic(linear: DVec3) -> DVec3 {
     (x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)).min(DVec3::ONE)
 }
 
+/// Curves from linear radiance, exposed, to the light that a display gives.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tone {
+    /// Cut at 1: the plainest, which shows every bright difference as none.
+    Clamp,
+    /// [`tone_neutral`]: a scene's default.
+    #[default]
+    Neutral,
+    /// [`tone_filmic`].
+    Filmic,
+}
+
+impl Tone {
+    /// The light shown, every component in [0, 1].
+    pub fn apply(self, linear: DVec3) -> DVec3 {
+        let curved = match self {
+            Self::Clamp => linear,
+            Self::Neutral => tone_neutral(linear),
+            Self::Filmic => tone_filmic(linear),
+        };
+        curved.clamp(DVec3::ZERO, DVec3::ONE)
+    }
+}
+
+/// How radiance is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Display {
+    /// Factor on radiance, above 0; 1 = as it is.
+    pub exposure: f64,
+    /// The tone curve after it.
+    pub tone: Tone,
+}
+
+impl Display {
+    /// As it is, cut at 1.
+    pub const PLAIN: Self = Self { exposure: 1.0, tone: Tone::Clamp };
+}
+
+impl Default for Display {
+    /// As a scene is shown that says nothing of it.
+    fn default() -> Self {
+        Self { exposure: 1.0, tone: Tone::default() }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -43,6 +88,18 @@ mod tests {
         // Bright red fades toward white; the neutral curve keeps its hue.
         let red = DVec3::new(20.0, 2.0, 2.0);
         assert!(tone_filmic(red).y > 0.9 && tone_neutral(red).y < 0.11);
+    }
+
+    #[test]
+    fn every_curve_gives_what_a_display_can_show() {
+        let bright = DVec3::new(0.9, 40.0, -2.0);
+        for tone in [Tone::Clamp, Tone::Neutral, Tone::Filmic] {
+            let shown = tone.apply(bright);
+            assert!(shown.min_element() >= 0.0 && shown.max_element() <= 1.0 && shown.z == 0.0, "{tone:?}");
+        }
+        assert_eq!(Tone::Clamp.apply(bright), DVec3::new(0.9, 1.0, 0.0));
+        assert_eq!(Tone::default().apply(bright), tone_neutral(bright));
+        assert_eq!(Tone::Filmic.apply(bright), tone_filmic(bright));
     }
 
     #[test]

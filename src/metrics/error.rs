@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::io::picture::{DisplayImage, LinearImage};
+use crate::math::tone::Display;
 use crate::metrics::coverage::Coverage;
 use crate::metrics::flip::FlipMap;
 use crate::metrics::{MetricError, Side, check_linear};
@@ -45,20 +46,20 @@ pub struct Comparison {
     pub flip: FlipMap,
 }
 
-/// Compares `test` with `reference`. FLIP sees both through [`DisplayImage::from_linear`] at `exposure` (a
-/// factor above 0); the squared errors see the radiance as it is. Not symmetric: the relative error and FLIP's
+/// Compares `test` with `reference`. FLIP sees both as `display` shows them, over black; the squared errors see
+/// the radiance as it is. Not symmetric: the relative error and FLIP's
 /// name for the sides depend on which is the reference.
 pub fn compare(
     test: &LinearImage,
     reference: &LinearImage,
-    exposure: f64,
+    display: &Display,
 ) -> Result<Comparison, MetricError> {
     check_linear(test, reference)?;
     let covered = Coverage::of_linear(test, reference)?;
     let whole = Coverage::everywhere(test.pixels.len())?;
     let shown_test =
-        DisplayImage::from_linear(test, exposure).map_err(|e| MetricError::display(Side::Test, e))?;
-    let shown_reference = DisplayImage::from_linear(reference, exposure)
+        DisplayImage::from_linear(test, display).map_err(|e| MetricError::display(Side::Test, e))?;
+    let shown_reference = DisplayImage::from_linear(reference, display)
         .map_err(|e| MetricError::display(Side::Reference, e))?;
     let flip = FlipMap::new(&shown_test, &shown_reference)?;
     let error = PictureError {

@@ -26,12 +26,12 @@ fn changed(change: impl Fn([f32; 4]) -> [f32; 4]) -> LinearImage {
 }
 
 fn covered_error(test: &LinearImage) -> RegionError {
-    compare(test, &yarn_disc(), 1.0).unwrap().error.covered
+    compare(test, &yarn_disc(), &Display::PLAIN).unwrap().error.covered
 }
 
 #[test]
 fn equal_pictures_have_no_error() {
-    let error = compare(&yarn_disc(), &yarn_disc(), 1.0).unwrap().error;
+    let error = compare(&yarn_disc(), &yarn_disc(), &Display::PLAIN).unwrap().error;
     for region in [error.covered, error.whole] {
         assert_eq!(
             (region.flip_mean, region.flip_max, region.mse, region.relative_mse),
@@ -53,7 +53,7 @@ fn a_constant_offset_has_the_squared_error_of_the_formula() {
         reference.pixels[index][3] = 1.0;
         test.pixels[index][1] += 0.25;
     }
-    let error = compare(&test, &reference, 1.0).unwrap().error;
+    let error = compare(&test, &reference, &Display::PLAIN).unwrap().error;
     let mse = 0.25 * 0.25 / 3.0;
     assert!((error.covered.mse - mse).abs() < 1e-15);
     assert!((error.whole.mse - mse / 2.0).abs() < 1e-15);
@@ -71,13 +71,15 @@ fn decibels_are_those_of_the_formula() {
 #[test]
 fn extreme_radiance_stays_finite() {
     let bright = LinearImage::filled(2, 2, [f32::MAX, 0.0, 0.0, 1.0]);
-    let error = compare(&bright, &LinearImage::filled(2, 2, [-f32::MAX, 0.0, 0.0, 1.0]), 1.0).unwrap().error;
+    let error = compare(&bright, &LinearImage::filled(2, 2, [-f32::MAX, 0.0, 0.0, 1.0]), &Display::PLAIN)
+        .unwrap()
+        .error;
     assert!(error.covered.mse.is_finite() && error.covered.relative_mse.is_finite());
 }
 
 #[test]
 fn empty_background_hides_error_in_the_whole_but_not_in_the_covered() {
-    let error = compare(&changed(|[r, g, b, a]| [b, g, r, a]), &yarn_disc(), 1.0).unwrap().error;
+    let error = compare(&changed(|[r, g, b, a]| [b, g, r, a]), &yarn_disc(), &Display::PLAIN).unwrap().error;
     assert!(error.covered.flip_mean > 1.8 * error.whole.flip_mean, "{error:?}");
     assert!((error.covered.mse / error.whole.mse - 4096.0 / error.covered.pixels as f64).abs() < 1e-9);
 }
@@ -115,8 +117,8 @@ fn every_kind_of_non_finite_value_is_refused_on_either_side_and_named() {
             let mut bad = yarn_disc();
             bad.pixels[(7 * SIDE + 5) as usize][channel] = bad_value;
             bad.pixels[(9 * SIDE + 1) as usize][channel] = bad_value;
-            let as_test = compare(&bad, &good, 1.0).unwrap_err().to_string();
-            let as_reference = compare(&good, &bad, 1.0).unwrap_err().to_string();
+            let as_test = compare(&bad, &good, &Display::PLAIN).unwrap_err().to_string();
+            let as_reference = compare(&good, &bad, &Display::PLAIN).unwrap_err().to_string();
             assert!(as_test.starts_with("test picture: pixel (5, 7):"), "{as_test}");
             assert!(as_reference.starts_with("reference picture: pixel (5, 7):"), "{as_reference}");
         }
@@ -130,13 +132,19 @@ fn what_cannot_be_judged_is_an_error() {
     let short = LinearImage { pixels: vec![[1.0; 4]; 5], ..yarn_disc() };
     let uncovered = LinearImage::filled(8, 8, [0.3, 0.3, 0.3, 0.0]);
     let empty = LinearImage { width: 0, height: 0, pixels: Vec::new() };
-    assert!(matches!(compare(&turned, &good, 1.0), Err(MetricError::Sizes { .. })));
-    assert!(matches!(compare(&short, &good, 1.0), Err(MetricError::Shape(Side::Test, _))));
-    assert!(matches!(compare(&good, &short, 1.0), Err(MetricError::Shape(Side::Reference, _))));
-    assert!(matches!(compare(&uncovered, &uncovered, 1.0), Err(MetricError::NothingCovered)));
-    assert!(matches!(compare(&empty, &empty, 1.0), Err(MetricError::Shape(..))));
+    assert!(matches!(compare(&turned, &good, &Display::PLAIN), Err(MetricError::Sizes { .. })));
+    assert!(matches!(compare(&short, &good, &Display::PLAIN), Err(MetricError::Shape(Side::Test, _))));
+    assert!(matches!(compare(&good, &short, &Display::PLAIN), Err(MetricError::Shape(Side::Reference, _))));
+    assert!(matches!(compare(&uncovered, &uncovered, &Display::PLAIN), Err(MetricError::NothingCovered)));
+    assert!(matches!(compare(&empty, &empty, &Display::PLAIN), Err(MetricError::Shape(..))));
     for exposure in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(compare(&good, &good, exposure), Err(MetricError::Exposure(_))), "{exposure}");
+        assert!(
+            matches!(
+                compare(&good, &good, &Display { exposure, ..Display::PLAIN }),
+                Err(MetricError::Exposure(_))
+            ),
+            "{exposure}"
+        );
     }
 }
 

@@ -3,9 +3,11 @@
 //! Every function fails closed: pictures of different or senseless sizes, a NaN or an infinity anywhere in
 //! either, and an empty set of covered pixels are errors, never a number.
 
+pub mod blocks;
 pub mod coverage;
 pub mod error;
 pub mod flip;
+pub mod noise;
 
 use crate::io::picture::{BadShape, DisplayImage, LinearImage, NotDisplayable, NotFinite};
 
@@ -57,6 +59,28 @@ pub enum MetricError {
         pixels: usize,
         /// Pixels of the coverage.
         covers: usize,
+    },
+    /// The variances belong to a picture of another size.
+    #[error("{side}: expected the variance of {pixels} pixels, found that of {found}")]
+    VarianceSize {
+        /// The picture.
+        side: Side,
+        /// Its pixels.
+        pixels: usize,
+        /// Variances of pixels.
+        found: usize,
+    },
+    /// A variance that is below 0 or no finite number.
+    #[error("{side}: pixel ({x}, {y}): expected finite variances of at least 0, found {value:?}")]
+    Variance {
+        /// The picture.
+        side: Side,
+        /// The pixel's column.
+        x: usize,
+        /// The pixel's row.
+        y: usize,
+        /// The variances of its red, green and blue.
+        value: [f32; 3],
     },
     /// There is nothing to average over.
     #[error("expected a pixel covered by yarn in either picture, found none")]

@@ -5,6 +5,7 @@ use super::strand_pipeline::{Strands, strand_pipeline};
 use super::targets::Targets;
 use crate::graph::{Pass, Use};
 use crate::scene::features::Features;
+use crate::shaders::ShaderSet;
 use crate::vulkan::{
     Access, Binding, Buffer, ColorTarget, Commands, DepthTarget, DescriptorLayout, DescriptorSet, Device,
     Image, ImageState, Pipeline, Rendering, Resource, Sampler, SamplerInfo, VulkanError, vk,
@@ -64,6 +65,7 @@ struct FabricDraw {
 /// The pass: layouts, pipelines by features, and what is drawn.
 pub struct FibersPass {
     device: Arc<Device>,
+    shaders: ShaderSet,
     frame_layout: DescriptorLayout,
     fabric_layout: DescriptorLayout,
     frame: FrameBuffers,
@@ -107,6 +109,7 @@ impl FibersPass {
         let frame_set = DescriptorSet::new(&frame_layout, "frame", &resources)?;
         Ok(Self {
             device: device.clone(),
+            shaders: ShaderSet::default(),
             frame_layout,
             fabric_layout,
             frame,
@@ -117,6 +120,12 @@ impl FibersPass {
             fabrics: Vec::new(),
             draws: Vec::new(),
         })
+    }
+
+    /// The pass with other shaders for the fabrics that follow.
+    #[must_use]
+    pub fn with_shaders(self, shaders: ShaderSet) -> Self {
+        Self { shaders, ..self }
     }
 
     /// Layouts of sets 0 and 1, for kernels that read the same buffers.
@@ -163,7 +172,8 @@ impl FibersPass {
                 Some(pipeline) => pipeline.clone(),
                 None => {
                     let layouts = self.layouts();
-                    let pipeline = strand_pipeline(&self.device, &features, strands, samples, &layouts)?;
+                    let (device, shaders) = (&self.device, &self.shaders);
+                    let pipeline = strand_pipeline(device, shaders, &features, strands, samples, &layouts)?;
                     self.pipelines.insert((features, strands), pipeline.clone());
                     pipeline
                 }

@@ -13,6 +13,10 @@ use crate::vulkan::VulkanError;
 
 /// The SPIR-V of a shader that the build embeds.
 fn spirv(path: &str) -> Result<&'static [u32], VulkanError> {
-    crate::shaders::get(path)
-        .ok_or_else(|| VulkanError::Misuse { what: format!("no embedded shader `{path}`") })
+    found(path, crate::shaders::get(path))
+}
+
+/// The words that were looked up for `path`, if there are any.
+fn found<'a>(path: &str, words: Option<&'a [u32]>) -> Result<&'a [u32], VulkanError> {
+    words.ok_or_else(|| VulkanError::Misuse { what: format!("no embedded shader `{path}`") })
 }

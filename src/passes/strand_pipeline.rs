@@ -1,8 +1,9 @@
 //! Pipelines that expand yarn into strands: core fibers or single ones.
 
-use super::spirv;
+use super::found;
 use super::targets::{DEPTH_FORMAT, RADIANCE_FORMAT};
 use crate::scene::features::Features;
+use crate::shaders::ShaderSet;
 use crate::vulkan::{
     DepthState, DescriptorLayout, Device, GraphicsPipelineInfo, Pipeline, ShaderStage,
     SpecializationConstants, VulkanError, vk,
@@ -37,12 +38,13 @@ impl Strands {
     }
 }
 
-/// Builds a pipeline for frames of `samples`.
+/// Builds a pipeline of `shaders` for frames of `samples`.
 ///
 /// # Errors
 /// Those of the device.
 pub fn strand_pipeline(
     device: &Arc<Device>,
+    shaders: &ShaderSet,
     features: &Features,
     strands: Strands,
     samples: vk::SampleCountFlags,
@@ -52,7 +54,10 @@ pub fn strand_pipeline(
     let stages = strands
         .stages()
         .iter()
-        .map(|&(stage, file)| Ok(ShaderStage { stage, spirv: spirv(file)?, constants: &constants }))
+        .map(|&(stage, file)| {
+            let spirv = found(file, shaders.get(file))?;
+            Ok(ShaderStage { stage, spirv, constants: &constants })
+        })
         .collect::<Result<Vec<_>, VulkanError>>()?;
     Pipeline::graphics(
         device,

@@ -2,7 +2,9 @@
 
 #![expect(clippy::unwrap_used, reason = "the helpers of a test may fail it")]
 
+mod compare;
 mod errors;
+mod export;
 mod process;
 mod reference;
 
@@ -234,9 +236,16 @@ fn doctor_finds_the_device_good() {
 #[test]
 fn every_command_has_help() {
     let place = Workplace::new();
-    for command in
-        [&[][..], &["render"], &["knit"], &["knit", "stockinette"], &["knit", "tube"], &["info"], &["doctor"]]
-    {
+    for command in [
+        &[][..],
+        &["render"],
+        &["compare"],
+        &["knit"],
+        &["knit", "stockinette"],
+        &["knit", "tube"],
+        &["info"],
+        &["doctor"],
+    ] {
         let output = place.run(&[command, &["--help"]].concat());
         assert_good(&output);
         let said = String::from_utf8(output.stdout).unwrap();

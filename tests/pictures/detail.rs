@@ -1,6 +1,7 @@
 //! Level of detail and core fibers against every fiber.
 
 use worsted::io::picture::LinearImage;
+use worsted::math::tone::Display;
 use worsted::metrics::error::compare;
 
 use crate::draw::{draw, draw_counted, mean_channel, scene, swatch};
@@ -21,7 +22,7 @@ fn pictured(sets: &[&str]) -> LinearImage {
 }
 
 fn flip(a: &LinearImage, b: &LinearImage) -> f64 {
-    compare(a, b, 1.0).unwrap().error.covered.flip_mean
+    compare(a, b, &Display::PLAIN).unwrap().error.covered.flip_mean
 }
 
 fn color_change(a: &LinearImage, b: &LinearImage) -> f64 {

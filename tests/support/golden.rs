@@ -7,6 +7,7 @@
 use std::path::{Path, PathBuf};
 
 use worsted::io::picture::{DisplayImage, LinearImage, read_png, write_png};
+use worsted::math::tone::Display;
 use worsted::metrics::coverage::Coverage;
 use worsted::metrics::flip::FlipMap;
 
@@ -97,8 +98,9 @@ impl Goldens {
         exposure: f64,
         tolerance: Tolerance,
     ) -> Result<Figures, String> {
+        let display = Display { exposure, ..Display::PLAIN };
         let shown =
-            DisplayImage::from_linear(picture, exposure).map_err(|e| format!("golden {name}: {e}"))?;
+            DisplayImage::from_linear(picture, &display).map_err(|e| format!("golden {name}: {e}"))?;
         self.check(name, &shown, tolerance)
     }
 

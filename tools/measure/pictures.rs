@@ -6,6 +6,7 @@ use worsted::frame::Picture;
 use worsted::frame::stats::Stats;
 use worsted::io::error::FileError;
 use worsted::io::picture::{DisplayImage, LinearImage, write_png};
+use worsted::math::tone::Display;
 use worsted::metrics::MetricError;
 use worsted::metrics::coverage::Coverage;
 use worsted::metrics::error::{Comparison, compare};
@@ -30,12 +31,12 @@ impl Shot {
         Self { linear, display, stats }
     }
 
-    /// The errors that the design quotes: on radiance at exposure 1.
+    /// The errors that the design quotes: on radiance at exposure 1, without a tone curve.
     ///
     /// # Errors
     /// Pictures that cannot be compared.
     pub fn against(&self, reference: &Self) -> Result<Comparison, Error> {
-        compare(&self.linear, &reference.linear, 1.0).map_err(failed)
+        compare(&self.linear, &reference.linear, &Display::PLAIN).map_err(failed)
     }
 
     /// Mean FLIP of the pictures as displayed, over the pixels that yarn covers in either.
