@@ -1,8 +1,10 @@
 //! Measures what level of detail and tables cost and save, and says whether their limits hold: `measure
-//! lod-error|lod-cost|dolly|turntable|tables|shadow-tables|shadow-cost`. Exit codes are those of `worsted`; 1 is a limit that does not hold.
+//! lod-error|lod-cost|dolly|turntable|tables|shadow-tables|shadow-cost|judge`. Exit codes are those of `worsted`; 1 is a limit
+//! that does not hold.
 
 mod cost;
 mod dolly;
+mod judge;
 mod lod_cost;
 mod lod_error;
 #[path = "../figures/looks.rs"]
@@ -49,6 +51,8 @@ enum Command {
     ShadowCost(cost::Options),
     /// Error of the self-shadow and occlusion tables against the integrals they stand for, by size.
     ShadowTables(shadow_tables::Options),
+    /// Error of the default settings against the traced reference, and what each approximation has to do with it.
+    Judge(judge::Options),
 }
 
 fn main() -> ExitCode {
@@ -69,6 +73,7 @@ fn run(args: &Args) -> Result<(), Error> {
         Command::Turntable(options) => on_device(args, |stage| turntable::run(stage, options)),
         Command::Tables => tables::run(),
         Command::ShadowCost(options) => on_device(args, |stage| shadow_cost::run(stage, options)),
+        Command::Judge(options) => on_device(args, |stage| judge::run(stage, options)),
         Command::ShadowTables(options) => on_device(args, |stage| shadow_tables::run(stage, options)),
     }
 }
