@@ -64,7 +64,7 @@ pub struct CoreMip {
 }
 
 /// Rows of the coarsest level of the core's texture.
-const FEWEST_ROWS: u32 = 16;
+const FEWEST_ROWS: u32 = 8;
 
 /// The baked texture. Layer `ply * CORE_LEVELS + level` is the surface of the fibers of a ply that are not drawn
 /// one by one at a level; the last layer is a single fiber, which fills all rows.
