@@ -10,6 +10,7 @@
 //! 5. [`frame`] uploads the scene once and draws pictures, one of [`passes`] after the other.
 //! 6. [`reference`](mod@reference) traces the same scene over its real fibers, slowly: the judge.
 //! 7. [`metrics`] says how far a picture is from another.
+//! 8. [`mod@probe`] says what one function of the device makes of given numbers.
 //!
 //! ```no_run
 //! use worsted::frame::{Renderer, Request, sampling::Sampling};
@@ -38,6 +39,7 @@ pub mod math;
 pub mod metrics;
 pub mod passes;
 pub mod precompute;
+pub mod probe;
 pub mod reference;
 pub mod scene;
 pub mod shaders;

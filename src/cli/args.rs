@@ -2,7 +2,9 @@
 
 use crate::frame::sampling::Sampling;
 use crate::knit::params::KnitParams;
+use crate::probe;
 use crate::reference::fibers::RealiseSettings;
+use clap::builder::PossibleValuesParser;
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -56,6 +58,9 @@ pub enum Command {
     Info(Info),
     /// Say what this machine can do, what is missing, and the line that installs it.
     Doctor,
+    /// Evaluate one function for every line of standard input: a JSON object in, one out.
+    #[command(after_long_help = probe::described())]
+    Probe(Probe),
 }
 
 /// `worsted render`.
@@ -270,4 +275,24 @@ pub struct Knitting {
 pub struct Info {
     /// A yarn file (`.bcc`, `.obj`).
     pub yarn: PathBuf,
+}
+
+/// `worsted probe`.
+#[derive(Debug, ClapArgs)]
+pub struct Probe {
+    /// The function; `--help` says what its queries hold.
+    #[arg(value_parser = PossibleValuesParser::new(probe::FUNCTIONS.iter().map(|function| function.name)))]
+    pub function: String,
+    /// What evaluates it.
+    #[arg(long, value_enum)]
+    pub backend: Backend,
+}
+
+/// What evaluates a probed function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Backend {
+    /// The shader itself, on the device.
+    Device,
+    /// Its f64 twin, without tables.
+    F64,
 }

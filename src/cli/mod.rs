@@ -8,6 +8,7 @@ mod info;
 pub mod job;
 mod knit;
 mod output;
+mod probe;
 mod reference;
 mod render;
 
@@ -32,6 +33,7 @@ pub fn run(args: &Args) -> Result<(), Error> {
         Command::Knit(knit) => knit::run(knit),
         Command::Info(info) => info::run(info),
         Command::Doctor => doctor::run(&args.common),
+        Command::Probe(probe) => probe::run(probe, &args.common),
     }
 }
 

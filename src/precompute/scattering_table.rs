@@ -42,16 +42,24 @@ pub fn bake_lobe(width: f64, entries: u32) -> Vec<[f32; 4]> {
     let entries = entries.clamp(*ENTRIES.start(), *ENTRIES.end());
     let entry = |index: u32| {
         let position = f64::from(index) / f64::from(entries - 1);
-        let cos_i = normaliser_cosine(position, width);
-        let normaliser = longitudinal_normaliser(cos_i.acos(), width) / gaussian_normaliser(cos_i, width);
-        let x_o = ambient_distance(position, width);
-        let cos_o = x_o.sin();
-        let [all, grazing, through] = ambient_integrals(FRAC_PI_2 - x_o, width);
-        let factors =
-            [normaliser, all, grazing / grazing_moment(cos_o, width), through / through_moment(cos_o, width)];
-        factors.map(|factor| factor as f32)
+        let [all, grazing, through] = ambient_factors(position, width);
+        [normaliser_factor(position, width), all, grazing, through].map(|factor| factor as f32)
     };
     (0..entries).into_par_iter().map(entry).collect()
+}
+
+/// What an entry at `position`, 0 to 1, holds of G.
+pub fn normaliser_factor(position: f64, width: f64) -> f64 {
+    let cos_i = normaliser_cosine(position, width);
+    longitudinal_normaliser(cos_i.acos(), width) / gaussian_normaliser(cos_i, width)
+}
+
+/// What it holds of light from everywhere: the integral of M cos^2, and factors of its grazing part and of the rest.
+pub fn ambient_factors(position: f64, width: f64) -> [f64; 3] {
+    let x_o = ambient_distance(position, width);
+    let cos_o = x_o.sin();
+    let [all, grazing, through] = ambient_integrals(FRAC_PI_2 - x_o, width);
+    [all, grazing / grazing_moment(cos_o, width), through / through_moment(cos_o, width)]
 }
 
 /// Halvings that bring the bracket below down to a double's last bit.

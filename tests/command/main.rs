@@ -5,6 +5,7 @@
 mod compare;
 mod errors;
 mod export;
+mod probe;
 mod process;
 mod reference;
 
@@ -245,6 +246,7 @@ fn every_command_has_help() {
         &["knit", "tube"],
         &["info"],
         &["doctor"],
+        &["probe"],
     ] {
         let output = place.run(&[command, &["--help"]].concat());
         assert_good(&output);

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output, Stdio};
 
 use tempfile::TempDir;
 
@@ -38,6 +39,26 @@ impl Workplace {
     /// The command with `arguments`, run in this folder.
     pub fn run(&self, arguments: &[impl AsRef<OsStr>]) -> Output {
         self.run_with(arguments, &[])
+    }
+
+    /// [`Self::run`] with `input` on standard input.
+    pub fn run_on(&self, arguments: &[&str], input: &str) -> Output {
+        let mut child = self.start(arguments);
+        let mut stdin = child.stdin.take().expect("piped");
+        let input = input.to_owned();
+        // A command that ends early closes the pipe; what it says tells why.
+        let writing = std::thread::spawn(move || drop(stdin.write_all(input.as_bytes())));
+        let output = child.wait_with_output().expect("a child of ours");
+        writing.join().expect("writing does not fail the test");
+        output
+    }
+
+    /// The command, started with pipes at all its ends.
+    pub fn start(&self, arguments: &[&str]) -> Child {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_worsted"));
+        command.current_dir(self.folder.path()).args(arguments);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        command.spawn().expect("the command was built with this test")
     }
 
     /// [`Self::run`] with environment variables set.

@@ -5,6 +5,7 @@ use crate::inputs::{Random, SPECIAL_T, random_rows, row, special_pieces, special
 use crate::math_cases::{first_vec3, is_perpendicular, is_unit, largest, largest_difference};
 use glam::{DVec3, DVec4};
 use std::f64::consts::{PI, TAU};
+use worsted::yarn::density;
 use worsted::yarn::fiber::{self, PieceTurns, Turns};
 use worsted::yarn::level::{self, Cutting};
 use worsted::yarn::migration;
@@ -13,7 +14,7 @@ const FACTOR_FLOOR: f64 = 1e-3;
 
 pub fn cases() -> Vec<Case> {
     let mut all = vec![migration_radius(), turning_angle(), subdivisions(), outside_frustum()];
-    all.extend([period_pieces(), nearest_depth()]);
+    all.extend([period_pieces(), nearest_depth(), one_minus_exp(), fiber_density()]);
     all.extend([piece_tangent(), turned_normal(), twist_at(), yarn_point()]);
     all
 }
@@ -39,6 +40,37 @@ fn migration_radius() -> Case {
             vec![number("radius", radius, FACTOR_FLOOR), number("slope", slope, FACTOR_FLOOR)]
         },
         invariant: None,
+    }
+}
+
+fn one_minus_exp() -> Case {
+    let mut rows = random_rows("one_minus_exp", |random| row().real(random.magnitude(1e-7, 1.0)).end());
+    rows.extend([0.0, 1e-30, 0.249_999, 0.25, 1.0].map(|x| row().real(x).end()));
+    let twin = |args: &mut crate::harness::Args<'_>| vec![number("share", -(-args.real()).exp_m1(), 1e-30)];
+    Case { function: "one_minus_exp", rows, twin, invariant: None }
+}
+
+fn fiber_density() -> Case {
+    let density_row =
+        |radius: f64, beta: f64, epsilon: f64| row().real(radius).real(beta).real(epsilon).end();
+    let mut rows = random_rows("fiber_density", |random| {
+        let from_rim = random.magnitude(1e-7, 1.0);
+        let beta = if random.below(2) == 0 { random.between(0.0, 1.0) } else { random.between(0.0, 20.0) };
+        density_row(1.0 - from_rim, beta, random.between(0.0, 0.5))
+    });
+    for radius in [0.0, 0.5, 0.75, 1.0, -0.1, 1.000_001] {
+        for beta in [0.0, 1e-6, 0.4, 20.0] {
+            rows.extend([0.0, 0.1, 0.5].map(|epsilon| density_row(radius, beta, epsilon)));
+        }
+    }
+    Case {
+        function: "fiber_density",
+        rows,
+        twin: |args| {
+            let value = density::fiber_density(args.real(), args.real(), args.real());
+            vec![number("density", value, FACTOR_FLOOR)]
+        },
+        invariant: Some(|_, found| (0.0..=1.0).contains(&found[0]).then_some(()).ok_or("not a share".into())),
     }
 }
 
