@@ -224,7 +224,7 @@ mod tests {
     #[test]
     fn a_default_scene_leaves_out_only_what_it_lacks() {
         let out = features(|_, _| {}).left_out();
-        let expected = ["environment", "local_lights", "self_shadow", "shadow_map", "statistics"];
+        let expected = ["environment", "local_lights", "soft_shadows", "statistics"];
         assert_eq!(out.keys().copied().collect::<Vec<_>>(), expected);
     }
 
