@@ -26,6 +26,7 @@ const EVERY_FIBER: &str = "
     quality = { level_of_detail = false, subdivision_tolerance_px = 0.02, max_subdivisions = 64 }
     debug = { fibers = 'every' }
     occlusion = { mode = 'none' }
+    shadow = { map = false, self = false }
     camera = { distance_mm = 8, yaw_deg = 25, pitch_deg = 15 }
 ";
 
