@@ -63,30 +63,47 @@ pub enum Command {
     Probe(Probe),
 }
 
-/// `worsted render`.
+/// A scene and what is changed about it.
 #[derive(Debug, ClapArgs)]
-pub struct Render {
+pub struct SceneArgs {
     /// A scene (`.toml`) or a yarn file (`.bcc`, `.obj`).
-    pub scene: PathBuf,
-    /// The picture: `.png` as displayed, `.exr` as linear radiance. May be given more than once.
-    #[arg(short, long, required = true)]
-    pub output: Vec<PathBuf>,
-    /// Width and height in pixels.
-    #[arg(long, default_value = "1280x960", value_name = "WxH")]
-    pub size: String,
-    /// Samples per pixel: 1, 4, 16, 36, 64 ...
-    #[arg(long, default_value = "4")]
-    pub samples: Sampling,
-    /// Camera as `key=value` pairs: yaw, pitch (degrees), distance (mm), target (mm), fov (degrees), or
-    /// `fit`.
-    #[arg(long, value_name = "yaw=30,pitch=20,distance=400,target=0:0:0|fit", allow_hyphen_values = true)]
-    pub camera: Option<String>,
+    #[arg(value_name = "SCENE")]
+    pub path: PathBuf,
     /// Set any scene key by its path; `null` removes it. May be given more than once.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// Seed of everything random.
     #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
     pub seed: Option<u64>,
+}
+
+/// From where, and how large.
+#[derive(Debug, ClapArgs)]
+pub struct ViewArgs {
+    /// Width and height in pixels.
+    #[arg(long, default_value = "1280x960", value_name = "WxH")]
+    pub size: String,
+    /// Camera as `key=value` pairs: yaw, pitch (degrees), distance (mm), target (mm), fov (degrees), or
+    /// `fit`.
+    #[arg(long, value_name = "yaw=30,pitch=20,distance=400,target=0:0:0|fit", allow_hyphen_values = true)]
+    pub camera: Option<String>,
+}
+
+/// `worsted render`.
+#[derive(Debug, ClapArgs)]
+pub struct Render {
+    /// What to show.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// The picture: `.png` as displayed, `.exr` as linear radiance. May be given more than once.
+    #[arg(short, long, required = true)]
+    pub output: Vec<PathBuf>,
+    /// How it is seen.
+    #[command(flatten)]
+    pub view: ViewArgs,
+    /// Samples per pixel: 1, 4, 16, 36, 64 ...
+    #[arg(long, default_value = "4")]
+    pub samples: Sampling,
     /// Draw this many times and report the spread of times.
     #[arg(long, default_value_t = 1, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub repeat: u32,
@@ -104,15 +121,16 @@ pub struct Render {
 /// `worsted reference`.
 #[derive(Debug, ClapArgs)]
 pub struct Reference {
-    /// A scene (`.toml`) or a yarn file (`.bcc`, `.obj`).
-    pub scene: PathBuf,
+    /// What to show.
+    #[command(flatten)]
+    pub scene: SceneArgs,
     /// The picture: `.exr` as linear radiance with the variance of each pixel's mean, `.png` as displayed. May be
     /// given more than once; beside the first, named `.part`, is kept what was done so far.
     #[arg(short, long, required = true)]
     pub output: Vec<PathBuf>,
-    /// Width and height in pixels.
-    #[arg(long, default_value = "1280x960", value_name = "WxH")]
-    pub size: String,
+    /// How it is seen.
+    #[command(flatten)]
+    pub view: ViewArgs,
     /// Samples per pixel.
     #[arg(long, default_value_t = 64, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1 << 20))]
     pub spp: u64,
@@ -120,15 +138,6 @@ pub struct Reference {
     /// follow them with `--set shading.diffuse=false`.
     #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u32).range(..=10_000))]
     pub bounces: u32,
-    /// Camera, as `worsted render` takes it.
-    #[arg(long, value_name = "yaw=30,pitch=20,distance=400,target=0:0:0|fit", allow_hyphen_values = true)]
-    pub camera: Option<String>,
-    /// Set any scene key by its path; `null` removes it. May be given more than once.
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set: Vec<String>,
-    /// Seed of everything random.
-    #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
-    pub seed: Option<u64>,
     /// Write statistics as JSON; `-` for standard output.
     #[arg(long, value_name = "FILE")]
     pub stats: Option<PathBuf>,
@@ -188,8 +197,9 @@ pub enum ShownTone {
 /// `worsted export`.
 #[derive(Debug, ClapArgs)]
 pub struct Export {
-    /// A scene (`.toml`) or a yarn file (`.bcc`, `.obj`).
-    pub scene: PathBuf,
+    /// What to show.
+    #[command(flatten)]
+    pub scene: SceneArgs,
     /// The fibers, in mm, Y up: `.usda` as USD BasisCurves with widths; `.bcc` as polylines, their radii, yarns and
     /// plies in a JSON file beside it.
     #[arg(short, long)]
@@ -197,12 +207,6 @@ pub struct Export {
     /// Most that a straight piece may depart from a fiber's axis, in radii of the fiber.
     #[arg(long, default_value_t = RealiseSettings::default().chord_error, value_name = "RADII")]
     pub chord_error: f64,
-    /// Set any scene key by its path; `null` removes it. May be given more than once.
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set: Vec<String>,
-    /// Seed of everything random.
-    #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
-    pub seed: Option<u64>,
 }
 
 /// `worsted knit`.

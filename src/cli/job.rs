@@ -1,11 +1,12 @@
 //! What was typed, resolved into what will run.
 
-use super::args::{Common, Render};
+use super::args::{Common, Render, SceneArgs};
 use super::output::Output;
 use crate::error::Error;
 use crate::frame::Request;
 use crate::io::picture::{MAX_PIXELS, MAX_SIDE};
 use crate::io::whole::check_target;
+use crate::reference::fibers::RealiseSettings;
 use crate::scene::Scene;
 use std::path::Path;
 
@@ -37,33 +38,57 @@ impl RenderJob {
         if let Some(stats) = args.stats.as_deref().filter(|path| *path != Path::new("-")) {
             check_target(stats)?;
         }
-        let assignments = assignments(args.camera.as_deref(), args.seed, &args.set)?;
         let request = Request {
-            size: parse_size(&args.size)?,
+            size: parse_size(&args.view.size)?,
             sampling: args.samples,
             statistics: args.stats.is_some() || args.explain,
             profile: args.profile,
         };
-        let scene = Scene::load(&args.scene, &assignments)?;
+        let scene = load_scene(&args.scene, args.view.camera.as_deref())?;
         let explain = args.explain;
         let (repeat, stats) = (args.repeat, args.stats.clone());
         Ok(Self { scene, request, outputs, repeat, stats, explain, common: common.clone() })
     }
 }
 
-/// What `--camera`, `--seed` and `--set` set, in an order that gives `--set` the last word.
+/// The scene with what `--camera`, `--seed` and `--set` set, in an order that gives `--set` the last word.
 ///
 /// # Errors
-/// A camera that makes no sense.
-pub(super) fn assignments(
-    camera: Option<&str>,
-    seed: Option<u64>,
-    set: &[String],
-) -> Result<Vec<String>, Error> {
+/// A camera that makes no sense, a scene that cannot be had.
+pub(super) fn load_scene(args: &SceneArgs, camera: Option<&str>) -> Result<Scene, Error> {
     let mut assignments = camera.map(camera_assignments).transpose()?.unwrap_or_default();
-    assignments.extend(seed.map(|seed| format!("seed={seed}")));
-    assignments.extend(set.iter().cloned());
-    Ok(assignments)
+    assignments.extend(args.seed.map(|seed| format!("seed={seed}")));
+    assignments.extend(args.set.iter().cloned());
+    Ok(Scene::load(&args.path, &assignments)?)
+}
+
+/// Says what a user should know of how the yarn was read.
+pub(super) fn report_notes(scene: &Scene, common: &Common) {
+    if !common.quiet {
+        for fabric in &scene.fabrics {
+            fabric.notes.iter().for_each(|note| eprintln!("{}: {note}", fabric.name));
+        }
+    }
+}
+
+/// How fibers are realised with this `--chord-error`.
+///
+/// # Errors
+/// One out of range.
+pub(super) fn realise_settings(chord_error: f64) -> Result<RealiseSettings, Error> {
+    in_range("--chord-error", chord_error, 1e-4, 10.0)?;
+    Ok(RealiseSettings { chord_error, ..Default::default() })
+}
+
+/// Whether an option's value is from `low` to `high`.
+///
+/// # Errors
+/// One that is not.
+pub(super) fn in_range(name: &str, value: f64, low: f64, high: f64) -> Result<(), Error> {
+    if (low..=high).contains(&value) {
+        return Ok(());
+    }
+    Err(Error::Arguments(format!("{name} {value}: allowed is {low} to {high}")))
 }
 
 /// `1280x960`.

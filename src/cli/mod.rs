@@ -9,6 +9,7 @@ pub mod job;
 mod knit;
 mod output;
 mod probe;
+mod progress;
 mod reference;
 mod render;
 

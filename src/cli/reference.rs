@@ -1,8 +1,9 @@
 //! `worsted reference`.
 
 use super::args::{Common, Reference};
-use super::job::{assignments, parse_size};
+use super::job::{in_range, load_scene, parse_size, realise_settings, report_notes};
 use super::output::{Output, PictureFormat, write_text};
+use super::progress::{set_share, share_bar};
 use crate::error::Error;
 use crate::io::picture::write_png;
 use crate::io::whole::check_target;
@@ -14,9 +15,7 @@ use crate::reference::geometry::FiberGeometry;
 use crate::reference::integrator::{TraceSettings, Tracer};
 use crate::reference::rendering::Rendering;
 use crate::scene::Scene;
-use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
-use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -36,7 +35,7 @@ pub struct ReferenceJob {
     stats: Option<PathBuf>,
     fresh: bool,
     stop_after_passes: Option<u64>,
-    quiet: bool,
+    common: Common,
 }
 
 impl ReferenceJob {
@@ -49,15 +48,14 @@ impl ReferenceJob {
         if let Some(stats) = args.stats.as_deref().filter(|path| *path != Path::new("-")) {
             check_target(stats)?;
         }
-        in_range("--chord-error", args.chord_error, 1e-4, 10.0)?;
+        let realise = realise_settings(args.chord_error)?;
         in_range("--own-fiber-diameters", args.own_fiber_diameters, 0.0, 1e3)?;
-        let size = parse_size(&args.size)?;
-        let set = assignments(args.camera.as_deref(), args.seed, &args.set)?;
+        let size = parse_size(&args.view.size)?;
         Ok(Self {
-            scene: Scene::load(&args.scene, &set)?,
+            scene: load_scene(&args.scene, args.view.camera.as_deref())?,
             size,
             samples: args.spp,
-            realise: RealiseSettings { chord_error: args.chord_error, ..Default::default() },
+            realise,
             trace: TraceSettings {
                 bounces: args.bounces,
                 own_fiber_diameters: args.own_fiber_diameters,
@@ -67,16 +65,9 @@ impl ReferenceJob {
             stats: args.stats.clone(),
             fresh: args.fresh,
             stop_after_passes: args.stop_after_passes,
-            quiet: common.quiet,
+            common: common.clone(),
         })
     }
-}
-
-fn in_range(name: &str, value: f64, low: f64, high: f64) -> Result<(), Error> {
-    if (low..=high).contains(&value) {
-        return Ok(());
-    }
-    Err(Error::Arguments(format!("{name} {value}: allowed is {low} to {high}")))
 }
 
 /// What is known of the run; the keys are stable.
@@ -106,9 +97,7 @@ struct Stats {
 /// Too many fibers, an unfinished picture of something else, files that cannot be written, samples that are no
 /// numbers.
 pub fn run(job: &ReferenceJob) -> Result<(), Error> {
-    for note in job.scene.fabrics.iter().flat_map(|f| f.notes.iter().map(move |note| (f, note))) {
-        say(job, &format!("{}: {}", note.0.name, note.1));
-    }
+    report_notes(&job.scene, &job.common);
     let started = Instant::now();
     let part = checkpoint::path_beside(&job.outputs[0].path);
     let key = checkpoint::key(&job.scene, job.size, job.realise.chord_error, &job.trace);
@@ -142,7 +131,7 @@ pub fn run(job: &ReferenceJob) -> Result<(), Error> {
 }
 
 fn say(job: &ReferenceJob, line: &str) {
-    if !job.quiet {
+    if !job.common.quiet {
         eprintln!("{line}");
     }
 }
@@ -167,13 +156,13 @@ fn trace(
     rendering: &mut Rendering,
     (part, key): (&Path, u64),
 ) -> Result<bool, Error> {
-    let bar = progress_bar(job);
-    bar.set_position((1000.0 * rendering.share(job.samples)) as u64);
+    let bar = share_bar(&job.common);
+    set_share(&bar, rendering.share(job.samples));
     bar.reset_eta();
     let mut kept = Instant::now();
     while !rendering.is_done(job.samples) && job.stop_after_passes.is_none_or(|n| rendering.passes() < n) {
         rendering.advance(tracer, job.samples, TILES_AT_ONCE);
-        bar.set_position((1000.0 * rendering.share(job.samples)) as u64);
+        set_share(&bar, rendering.share(job.samples));
         if kept.elapsed() > KEPT_EVERY {
             checkpoint::save(part, key, rendering)?;
             kept = Instant::now();
@@ -181,15 +170,6 @@ fn trace(
     }
     bar.finish_and_clear();
     Ok(rendering.is_done(job.samples))
-}
-
-/// A bar with the time left, on a terminal only.
-fn progress_bar(job: &ReferenceJob) -> ProgressBar {
-    if job.quiet || !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let style = ProgressStyle::with_template("{bar:40} {percent}% {elapsed} (left: {eta})");
-    ProgressBar::new(1000).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
 fn write_pictures(job: &ReferenceJob, rendering: &Rendering) -> Result<(), Error> {
