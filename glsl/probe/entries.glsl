@@ -3,8 +3,7 @@
 #ifndef WORSTED_PROBE_ENTRIES
 #define WORSTED_PROBE_ENTRIES
 
-#include "../test/kernel.glsl"
-#include "../bsdf/khungurn.glsl"
+#include "../test/scattering_numbers.glsl"
 
 const uint KEPT = 4; // entries in a row
 
@@ -29,13 +28,7 @@ uint take_entries(uint lobe) {
 }
 
 Scattering take_scattering() {
-    Scattering s;
-    s.c_r = take_vec3();
-    s.c_tt = take_vec3();
-    s.beta_r = take_float();
-    s.beta_tt = take_float();
-    s.k_tt = take_float();
-    s.n_tt = take_float();
+    Scattering s = take_scattering_numbers();
     s.entries = take_entries(LOBE_R);
     take_entries(LOBE_TT);
     return s;

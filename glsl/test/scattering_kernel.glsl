@@ -3,7 +3,7 @@
 #ifndef WORSTED_SCATTERING_KERNEL
 #define WORSTED_SCATTERING_KERNEL
 
-#include "../bsdf/khungurn.glsl"
+#include "scattering_numbers.glsl"
 
 const uint TABLE_ENTRIES = 128; // `DEFAULT_ENTRIES` of src/precompute/scattering_table.rs
 
@@ -24,13 +24,7 @@ uint take_lobe() {
 Scattering take_scattering() {
     table_of_lobe[LOBE_R] = take_uint();
     table_of_lobe[LOBE_TT] = take_uint();
-    Scattering s;
-    s.c_r = take_vec3();
-    s.c_tt = take_vec3();
-    s.beta_r = take_float();
-    s.beta_tt = take_float();
-    s.k_tt = take_float();
-    s.n_tt = take_float();
+    Scattering s = take_scattering_numbers();
     s.entries = TABLE_ENTRIES;
     return s;
 }

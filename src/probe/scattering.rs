@@ -133,6 +133,11 @@ fn fiber_words(
     row
 }
 
+/// [`fiber_words`] where light of one direction is scattered.
+fn lit_fiber_words(fiber: &FiberScattering, entries: &Entries, cos_i: f64) -> Vec<u32> {
+    fiber_words(fiber, entries, Column::Normaliser, normaliser_position, cos_i)
+}
+
 /// S.
 pub const BCSDF: Function = Function {
     name: "bcsdf",
@@ -151,13 +156,7 @@ pub const BCSDF: Function = Function {
             let [theta_i, theta_o, phi] = query.vec3().to_array();
             let cos_i = cosine(theta_i);
             let mut row = words([theta_i + theta_o, cos_i, cos_half(phi)]);
-            row.extend(fiber_words(
-                &fiber(&mut query),
-                entries,
-                Column::Normaliser,
-                normaliser_position,
-                cos_i,
-            ));
+            row.extend(lit_fiber_words(&fiber(&mut query), entries, cos_i));
             row
         },
         finish: as_given,
@@ -184,13 +183,7 @@ pub const BCSDF_COS: Function = Function {
             let directions = [direction(theta_i, phi), direction(theta_o, 0.0)];
             let mut row = words(directions.into_iter().flat_map(|d| d.to_array()));
             let cos_i = cosine(theta_i);
-            row.extend(fiber_words(
-                &fiber(&mut query),
-                entries,
-                Column::Normaliser,
-                normaliser_position,
-                cos_i,
-            ));
+            row.extend(lit_fiber_words(&fiber(&mut query), entries, cos_i));
             row
         },
         finish: as_given,

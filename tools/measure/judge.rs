@@ -113,12 +113,13 @@ pub fn run(stage: &Stage, options: &Options) -> Result<(), Error> {
     for (yarn, word, fiber_px) in rows {
         let model = stage.model(yarn, CLOTH)?;
         let view = view(&model, fiber_px, options);
-        for (part, sets) in PARTS {
-            let truth = print_row(stage, &model, (&view, sets), &format!("{yarn} {word}"), part, options)?;
-            if part == PARTS[0].0 {
-                blamed.push((format!("{yarn} {word}"), stage.model(yarn, CLOTH)?, view.clone(), truth));
-            }
+        let name = format!("{yarn} {word}");
+        let [all, rest @ ..] = PARTS;
+        let truth = print_row(stage, &model, (&view, all.1), &name, all.0, options)?;
+        for (part, sets) in rest {
+            print_row(stage, &model, (&view, sets), &name, part, options)?;
         }
+        blamed.push((name, model, view, truth));
     }
     println!(
         "\nEach approximation changed or left out by itself, the last one against a reference without shadows:\n"
@@ -159,7 +160,8 @@ fn print_row(
     options: &Options,
 ) -> Result<Truth, Error> {
     let lit = joined(view, &owned(part));
-    let truth = traced(&Scene::load(&model.path, &lit)?, true, options)?;
+    let scene = Scene::load(&model.path, &lit)?;
+    let truth = traced(&scene, true, options)?;
     let shot = stage.draw(
         &model.path,
         &joined(&lit, &options.set),
@@ -167,7 +169,7 @@ fn print_row(
     )?;
     let file = format!("{name} {light}").replace(' ', "-");
     shot.save(options.output.as_deref(), &file)?;
-    let shown = displayed(&truth.first, &Scene::load(&model.path, &lit)?.file.display);
+    let shown = displayed(&truth.first, &scene.file.display);
     save(&shown, options.output.as_deref(), &format!("{file}-reference"))?;
     let (found, floor) = (against(&shot.linear, &truth.first)?, against(&truth.second, &truth.first)?);
     save(&found.flip.heatmap(), options.output.as_deref(), &format!("{file}-flip"))?;
