@@ -1,13 +1,12 @@
 //! Densities along the chords of a ply, tabulated once for bakes that follow very many lines.
 
 use crate::math::quadrature::gauss_legendre;
-use crate::yarn::density::fiber_density;
-use crate::yarn::params::YarnParams;
+use crate::yarn::migrated_density::MigratedDensity;
 
-/// Steps of each side: errors stay below 2e-4 of a ply's half-axis.
-const STEPS: usize = 256;
+/// Steps of each side: errors stay below 5e-4 of a ply's half-axis.
+const STEPS: usize = 512;
 
-/// Integrals of p(R) from places on chords of the unit circle to their ends.
+/// Integrals of the density from places on chords of the unit circle to their ends.
 pub struct ChordTable {
     /// Chord by chord from the rim to the middle, by [`chord_share`]; on each from its middle to its end.
     rests: Vec<f64>,
@@ -15,14 +14,14 @@ pub struct ChordTable {
 
 impl ChordTable {
     /// The table of a yarn's density.
-    pub fn new(yarn: &YarnParams) -> Self {
+    pub fn new(of: &MigratedDensity) -> Self {
         let side = STEPS + 1;
         let mut rests = vec![0.0; side * side];
         for (chord, rests) in rests.chunks_exact_mut(side).enumerate() {
             let half = half_of_share(chord as f64 / STEPS as f64);
             let density = |s: f64| {
                 let radius = (1.0 - half * half * (1.0 - s * s)).max(0.0).sqrt();
-                fiber_density(radius.min(1.0), yarn.density_beta, yarn.density_epsilon)
+                of.at(radius.min(1.0))
             };
             for i in (0..STEPS).rev() {
                 let at = |i: usize| i as f64 / STEPS as f64;
@@ -32,7 +31,7 @@ impl ChordTable {
         Self { rests }
     }
 
-    /// Integral of p along the chord whose half is `half` (in [0, 1], as a share of the radius), from `from` (in
+    /// Integral along the chord whose half is `half` (in [0, 1], as a share of the radius), from `from` (in
     /// [-1, 1], as a share of that half, from its middle) to its end at 1, in units of its half.
     pub fn rest(&self, half: f64, from: f64) -> f64 {
         let onward = self.filtered(half, from.abs());
@@ -69,7 +68,7 @@ fn half_of_share(share: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::precompute::optical_depth::PlyLine;
+    use crate::precompute::optical_depth::{CrossSection, PlyLine};
     use crate::precompute::table_error::places;
     use crate::yarn::presets;
 
@@ -86,16 +85,18 @@ mod tests {
     fn chords_agree_with_integrals_along_their_lines() {
         for name in presets::yarn_names() {
             let yarn = presets::yarn(name).unwrap();
-            let chords = ChordTable::new(&yarn);
+            let section = CrossSection::new(&yarn);
+            let chords = ChordTable::new(&section.density);
             let (radius, half_axis) = (yarn.outer_radius_mm(), yarn.ellipse_short_mm);
-            let mut met = 0;
+            let (mut met, mut worst) = (0, 0f64);
             for (position, direction) in places(20_000) {
-                let Some(line) = PlyLine::new(&yarn, 0, position * radius, direction) else { continue };
+                let Some(line) = PlyLine::new(&section, 0, position * radius, direction) else { continue };
                 let (exact, fast) = (line.depth_mm(0.0, f64::INFINITY), line.depth_by(&chords));
-                assert!((exact - fast).abs() < 2e-4 * half_axis, "{name} {position}: {fast} vs {exact}");
+                worst = worst.max((exact - fast).abs() / half_axis);
                 met += usize::from(exact > 0.0);
             }
-            assert!(met > 3000, "{name}: {met}");
+            println!("{name}: {worst:.1e}");
+            assert!(met > 3000 && worst < 5e-4, "{name}: {met} chords, off by {worst}");
         }
     }
 }

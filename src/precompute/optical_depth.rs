@@ -2,22 +2,40 @@
 
 use super::chord_table::ChordTable;
 use crate::math::quadrature::gauss_legendre;
-use crate::yarn::density::fiber_density;
+use crate::yarn::migrated_density::MigratedDensity;
 use crate::yarn::params::YarnParams;
 use glam::DVec2;
 use std::f64::consts::TAU;
 
+/// A yarn and how dense its fibers are across it.
+#[derive(Clone, Debug)]
+pub struct CrossSection<'a> {
+    /// The yarn.
+    pub yarn: &'a YarnParams,
+    /// That of each of its plies, over the radius.
+    pub density: MigratedDensity,
+}
+
+impl<'a> CrossSection<'a> {
+    /// That of a yarn.
+    pub fn new(yarn: &'a YarnParams) -> Self {
+        Self { yarn, density: MigratedDensity::new(yarn) }
+    }
+
+    /// The parts that lie in its plies of the line through `position` (mm) along the unit `direction`, both ways.
+    pub fn lines(&self, position: DVec2, direction: DVec2) -> impl Iterator<Item = PlyLine<'_>> {
+        (0..self.yarn.ply_count).filter_map(move |ply| PlyLine::new(self, ply, position, direction))
+    }
+}
+
 /// Integral over distance, from `position` outward along the unit `direction`, of the sum of all
-/// plies' densities p(R); in mm. Ply 0 lies at (ply offset, 0); all positions in mm.
-pub fn optical_depth_mm(yarn: &YarnParams, position: DVec2, direction: DVec2) -> f64 {
-    (0..yarn.ply_count)
-        .filter_map(|ply| PlyLine::new(yarn, ply, position, direction))
-        .map(|line| line.depth_mm(0.0, f64::INFINITY))
-        .sum()
+/// plies' densities; in mm. Ply 0 lies at (ply offset, 0); all positions in mm.
+pub fn optical_depth_mm(section: &CrossSection<'_>, position: DVec2, direction: DVec2) -> f64 {
+    section.lines(position, direction).map(|line| line.depth_mm(0.0, f64::INFINITY)).sum()
 }
 
 /// The part of a line that lies in one ply.
-pub struct PlyLine {
+pub struct PlyLine<'a> {
     /// Where the line starts and how it goes on per mm, in the ply's frame scaled so that its ellipse is the
     /// unit circle.
     origin: DVec2,
@@ -27,13 +45,13 @@ pub struct PlyLine {
     /// Half of the chord's length, and that in the scaled frame.
     half_chord_mm: f64,
     half_chord: f64,
-    beta: f64,
-    epsilon: f64,
+    density: &'a MigratedDensity,
 }
 
-impl PlyLine {
+impl<'a> PlyLine<'a> {
     /// The line through `position` (mm) along the unit `direction`, both ways; `None` where it misses the ply.
-    pub fn new(yarn: &YarnParams, ply: u32, position: DVec2, direction: DVec2) -> Option<Self> {
+    pub fn new(section: &'a CrossSection<'_>, ply: u32, position: DVec2, direction: DVec2) -> Option<Self> {
+        let yarn = section.yarn;
         let (sin, cos) = (TAU * f64::from(ply) / f64::from(yarn.ply_count)).sin_cos();
         let turn = |v: DVec2| DVec2::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x);
         let axes = DVec2::new(yarn.ellipse_short_mm, yarn.ellipse_long_mm);
@@ -51,8 +69,7 @@ impl PlyLine {
             nearest_mm: -b / a,
             half_chord_mm: half_chord / a.sqrt(),
             half_chord,
-            beta: yarn.density_beta,
-            epsilon: yarn.density_epsilon,
+            density: &section.density,
         })
     }
 
@@ -60,11 +77,14 @@ impl PlyLine {
     pub fn depth_mm(&self, start_mm: f64, end_mm: f64) -> f64 {
         let (near, half) = (self.nearest_mm, self.half_chord_mm);
         let (start, end) = (start_mm.max(near - half), end_mm.min(near + half));
-        let density =
-            |s: f64| fiber_density((self.origin + s * self.step).length().min(1.0), self.beta, self.epsilon);
-        // p has a kink where the line passes the centre and bends hardest at the rim: split there.
+        let density = |s: f64| self.density.at((self.origin + s * self.step).length().min(1.0));
+        // It has kinks where the line passes the centre and the radius from which on all fibers are at times farther
+        // in, and bends hardest at the rim: split there.
+        let kink = self.density.kink();
+        let kink_half = half * (1.0 - (1.0 - kink * kink) / self.half_chord.powi(2)).max(0.0).sqrt();
+        let (inner, outer) = (kink_half.min(0.9 * half), kink_half.max(0.9 * half));
         let (mut sum, mut from) = (0.0, start);
-        for cut in [near - 0.9 * half, near, near + 0.9 * half, end] {
+        for cut in [near - outer, near - inner, near, near + inner, near + outer, end] {
             if from < cut.min(end) {
                 sum += gauss_legendre(from, cut.min(end), density);
                 from = cut.min(end);
@@ -106,6 +126,7 @@ mod tests {
     fn parallel_lines_add_up_to_the_whole_mass() {
         let yarn = presets::yarn("worsted_3ply").unwrap();
         let outer = yarn.outer_radius_mm();
+        let section = CrossSection::new(&yarn);
         for angle in [0.0, 0.4, 2.0] {
             let direction = DVec2::from_angle(angle);
             let n = 4000;
@@ -114,7 +135,7 @@ mod tests {
                 .map(|i| {
                     let across = -outer + (f64::from(i) + 0.5) * width;
                     let start = -2.0 * outer * direction + across * direction.perp();
-                    optical_depth_mm(&yarn, start, direction) * width
+                    optical_depth_mm(&section, start, direction) * width
                 })
                 .sum();
             let mass = f64::from(yarn.ply_count) * density_mass_mm2(&yarn);
@@ -127,12 +148,13 @@ mod tests {
         let yarn = presets::yarn("worsted_3ply").unwrap();
         let (position, direction) = (DVec2::new(0.1, 0.05), DVec2::from_angle(1.1));
         let axes = DVec2::new(yarn.ellipse_short_mm, yarn.ellipse_long_mm);
+        let section = CrossSection::new(&yarn);
         let density_at = |q: DVec2| -> f64 {
             (0..yarn.ply_count)
                 .map(|ply| {
                     let turn = DVec2::from_angle(-TAU * f64::from(ply) / f64::from(yarn.ply_count));
                     let r = (turn.rotate(q) - DVec2::new(yarn.ply_offset_mm(), 0.0)) / axes;
-                    fiber_density(r.length(), yarn.density_beta, yarn.density_epsilon)
+                    section.density.at(r.length())
                 })
                 .sum()
         };
@@ -140,20 +162,21 @@ mod tests {
         let step = 2.0 / f64::from(n);
         let sum: f64 =
             (0..n).map(|i| density_at(position + (f64::from(i) + 0.5) * step * direction) * step).sum();
-        let depth = optical_depth_mm(&yarn, position, direction);
+        let depth = optical_depth_mm(&section, position, direction);
         assert!((depth / sum - 1.0).abs() < 2e-3, "{depth} vs {sum}");
-        assert_eq!(optical_depth_mm(&yarn, DVec2::new(5.0, 0.0), DVec2::X), 0.0);
+        assert_eq!(optical_depth_mm(&section, DVec2::new(5.0, 0.0), DVec2::X), 0.0);
     }
 
     #[test]
     fn directions_beside_a_tangent_just_meet_and_just_miss_the_ply() {
         let yarn = presets::yarn("worsted_3ply").unwrap();
+        let section = CrossSection::new(&yarn);
         for position in [DVec2::new(2.0, 0.3), DVec2::new(-1.0, 1.5), DVec2::new(0.1, -3.0)] {
             let angles = ply_tangent_angles(&yarn, position);
             assert_eq!(angles.len(), 6);
             for (ply, pair) in (0..).zip(angles.chunks_exact(2)) {
                 let meets =
-                    |angle: f64| PlyLine::new(&yarn, ply, position, DVec2::from_angle(angle)).is_some();
+                    |angle: f64| PlyLine::new(&section, ply, position, DVec2::from_angle(angle)).is_some();
                 assert!(meets(pair[0] - 1e-6) && !meets(pair[0] + 1e-6), "ply {ply} from {position}");
                 assert!(meets(pair[1] + 1e-6) && !meets(pair[1] - 1e-6), "ply {ply} from {position}");
             }

@@ -1,7 +1,7 @@
 //! How much fiber light passes on its way into a yarn: the table of Wu & Yuksel 2019, Sec. 4.1; reading it is
 //! the twin of `glsl/shading/self_shadow.glsl`.
 
-use super::optical_depth::{PlyLine, optical_depth_mm};
+use super::optical_depth::{CrossSection, PlyLine, optical_depth_mm};
 use super::table::{filtered, node, node_coordinate};
 use super::table_error::TableError;
 use crate::math::angle::angle_of;
@@ -63,21 +63,21 @@ impl SelfShadowTable {
 /// Bakes the table of a yarn by exact line integrals.
 pub fn bake_self_shadow(yarn: &YarnParams, size: SelfShadowSize) -> SelfShadowTable {
     let size = SelfShadowSize { across: size.across.max(2), slices: size.slices.max(1) };
+    let section = CrossSection::new(yarn);
     let row = |row: u32| {
         let angle = PI / f64::from(yarn.ply_count) * node(row / size.across, size.slices);
         let across = 2.0 * node(row % size.across, size.across) - 1.0;
-        depth_row(yarn, DVec2::from_angle(angle), across, size.across)
+        depth_row(&section, DVec2::from_angle(angle), across, size.across)
     };
     let depths = (0..size.slices * size.across).into_par_iter().flat_map_iter(row).collect();
     SelfShadowTable { size, depths }
 }
 
 /// The depths along one line, `across` outer radii from the yarn's centre; the last texel is nearest to the light.
-fn depth_row(yarn: &YarnParams, toward: DVec2, across: f64, texels: u32) -> Vec<f16> {
-    let radius = yarn.outer_radius_mm();
+fn depth_row(section: &CrossSection<'_>, toward: DVec2, across: f64, texels: u32) -> Vec<f16> {
+    let radius = section.yarn.outer_radius_mm();
     let middle = across * radius * toward.perp();
-    let lines: Vec<PlyLine> =
-        (0..yarn.ply_count).filter_map(|ply| PlyLine::new(yarn, ply, middle, toward)).collect();
+    let lines: Vec<PlyLine<'_>> = section.lines(middle, toward).collect();
     let place = |i: u32| radius * (2.0 * node(i, texels) - 1.0);
     let mut depth = 0.0;
     let mut row = vec![f16::ZERO; texels as usize];
@@ -90,9 +90,9 @@ fn depth_row(yarn: &YarnParams, toward: DVec2, across: f64, texels: u32) -> Vec<
 
 /// What the table stands for: the integral itself, at `position` with light from the unit direction `toward`,
 /// all in outer radii.
-pub fn exact_self_shadow_depth(yarn: &YarnParams, position: DVec2, toward: DVec2) -> f64 {
-    let radius = yarn.outer_radius_mm();
-    optical_depth_mm(yarn, position * radius, toward) / radius
+pub fn exact_self_shadow_depth(section: &CrossSection<'_>, position: DVec2, toward: DVec2) -> f64 {
+    let radius = section.yarn.outer_radius_mm();
+    optical_depth_mm(section, position * radius, toward) / radius
 }
 
 /// Texture coordinates in the table for a fiber at `position` in the cross-section (ply 0 along x, in outer

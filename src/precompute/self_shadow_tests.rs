@@ -5,9 +5,10 @@ use crate::yarn::density::extinction_per_mm;
 use crate::yarn::presets;
 
 fn error_of(table: &SelfShadowTable, yarn: &YarnParams) -> TableError {
+    let section = CrossSection::new(yarn);
     let pair = |(position, toward): (DVec2, DVec2)| {
         let place = self_shadow_place(position, toward, yarn.ply_count, table.size);
-        (self_shadow_depth(table, place), exact_self_shadow_depth(yarn, position, toward))
+        (self_shadow_depth(table, place), exact_self_shadow_depth(&section, position, toward))
     };
     let places: Vec<(DVec2, DVec2)> = places(50_000).collect();
     TableError::new(&places.into_par_iter().map(pair).collect::<Vec<_>>(), table.largest())
@@ -35,11 +36,12 @@ fn coarse_weights_of_a_filter_keep_the_limits() {
     for name in presets::yarn_names() {
         let yarn = presets::yarn(name).unwrap();
         let table = bake_self_shadow(&yarn, SelfShadowSize::default());
+        let section = CrossSection::new(&yarn);
         let size = DVec3::from_array(table.size.extent().map(f64::from));
         let read = |(position, toward): (DVec2, DVec2)| {
             let place = self_shadow_place(position, toward, yarn.ply_count, table.size);
             let coarse = (((place * size - 0.5) * 256.0).round() / 256.0 + 0.5) / size;
-            let exact = exact_self_shadow_depth(&yarn, position, toward);
+            let exact = exact_self_shadow_depth(&section, position, toward);
             [self_shadow_depth(&table, coarse), self_shadow_depth(&table, place), exact]
         };
         let reads: Vec<[f64; 3]> = places(20_000).map(read).collect();
@@ -169,13 +171,14 @@ fn the_depth_is_continuous_all_the_way_round() {
 fn outside_of_the_circle_light_has_met_nothing_or_all() {
     let yarn = yarn_of(3);
     let table = bake_self_shadow(&yarn, SelfShadowSize::default());
+    let section = CrossSection::new(&yarn);
     let depth =
         |p: DVec2, light: DVec2| self_shadow_depth(&table, self_shadow_place(p, light, 3, table.size));
     for (_, light) in places(100) {
         for across in [-0.9, -0.2, 0.0, 0.5] {
             let side = across * light.perp();
             assert_eq!(depth(side + 1.5 * light, light), 0.0);
-            let all = exact_self_shadow_depth(&yarn, side - 3.0 * light, light);
+            let all = exact_self_shadow_depth(&section, side - 3.0 * light, light);
             assert!(
                 (depth(side - 1.01 * light, light) / table.largest() - all / table.largest()).abs() < 0.05
             );

@@ -4,6 +4,7 @@ use super::fields::{Domain, EXTINCTION, PHI, PLACE, SHARE, Values, field};
 use super::function::{Function, OnDevice, Shape, Table, TableOf, any, as_given, words};
 use super::yarn::bare_yarn;
 use crate::precompute::occlusion_table::{OCCLUSION_ACROSS, bake_occlusion_table, exact_occlusion};
+use crate::precompute::optical_depth::CrossSection;
 use crate::precompute::self_shadow::{SelfShadowSize, bake_self_shadow, exact_self_shadow_depth};
 use crate::yarn::density::fiber_density;
 use crate::yarn::params::YarnParams;
@@ -66,7 +67,7 @@ pub const SELF_SHADOW_DEPTH: Function = Function {
         let yarn = yarn(&mut query);
         let radius = yarn.outer_radius_mm();
         let (position, light) = (query.vec2() / radius, DVec2::from_angle(query.real()));
-        vec![radius * exact_self_shadow_depth(&yarn, position, light)]
+        vec![radius * exact_self_shadow_depth(&CrossSection::new(&yarn), position, light)]
     },
     device: OnDevice {
         kernel: "probe/self_shadow_depth.comp",
@@ -111,7 +112,7 @@ pub const AMBIENT_OCCLUSION: Function = Function {
     check: |query| in_reach(query),
     exact: |mut query| {
         let (yarn, extinction) = (yarn(&mut query), query.real());
-        vec![exact_occlusion(&yarn, extinction, query.vec2() / yarn.outer_radius_mm())]
+        vec![exact_occlusion(&CrossSection::new(&yarn), extinction, query.vec2() / yarn.outer_radius_mm())]
     },
     device: OnDevice {
         kernel: "probe/ambient_occlusion.comp",

@@ -9,6 +9,7 @@ pub mod fetch;
 pub mod fiber;
 pub mod flyaway;
 pub mod level;
+pub mod migrated_density;
 pub mod migration;
 pub mod params;
 pub mod period;

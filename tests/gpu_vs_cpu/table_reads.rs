@@ -12,6 +12,7 @@ use worsted::precompute::occlusion_table::{
     OCCLUSION_ACROSS, OCCLUSION_LIMIT, bake_occlusion_table, exact_occlusion, occlusion_place,
     texture_occlusion,
 };
+use worsted::precompute::optical_depth::CrossSection;
 use worsted::precompute::self_shadow::{
     SELF_SHADOW_LIMIT, SelfShadowSize, SelfShadowTable, bake_self_shadow, exact_self_shadow_depth,
     self_shadow_depth, self_shadow_light, self_shadow_place,
@@ -72,6 +73,7 @@ fn yarn_of(ply_count: u32) -> YarnParams {
 fn the_device_reads_depths_close_to_the_integral() {
     for (name, yarn) in presets() {
         let table = bake_self_shadow(&yarn, SelfShadowSize::default());
+        let section = CrossSection::new(&yarn);
         let points: Vec<(DVec2, DVec2)> = places(20_000).collect();
         let coordinates: Vec<DVec3> = points
             .iter()
@@ -79,7 +81,7 @@ fn the_device_reads_depths_close_to_the_integral() {
             .collect();
         let found = read_depths(&table, &coordinates);
         let exact =
-            points.par_iter().map(|(position, light)| exact_self_shadow_depth(&yarn, *position, *light));
+            points.par_iter().map(|(position, light)| exact_self_shadow_depth(&section, *position, *light));
         let pairs: Vec<_> = found.iter().copied().zip(exact.collect::<Vec<_>>()).collect();
         let error = TableError::new(&pairs, table.largest());
         println!("{name}: {error:?}");
@@ -103,13 +105,14 @@ fn the_device_reads_depths_close_to_the_integral() {
 fn the_device_reads_occlusion_close_to_the_integral() {
     for (name, yarn) in presets() {
         let table = bake_occlusion_table(&yarn, extinction_per_mm(&yarn), OCCLUSION_ACROSS);
+        let section = CrossSection::new(&yarn);
         let points: Vec<DVec2> = places(2000).map(|(position, _)| position).collect();
         let coordinates: Vec<DVec2> = points.iter().map(|p| occlusion_place(*p, table.across)).collect();
         let rows: Vec<_> = coordinates.iter().map(|place| row().real(place.x).real(place.y).end()).collect();
         let extent = [table.across, table.across, 1];
         let found = read("texture_occlusion", extent, &table.visibilities, &rows).expect("a table");
         let exact: Vec<f64> =
-            points.par_iter().map(|p| exact_occlusion(&yarn, extinction_per_mm(&yarn), *p)).collect();
+            points.par_iter().map(|p| exact_occlusion(&section, extinction_per_mm(&yarn), *p)).collect();
         let error = TableError::new(&found.iter().copied().zip(exact).collect::<Vec<_>>(), 1.0);
         println!("{name}: {error:?}");
         assert!(error.worst <= OCCLUSION_LIMIT, "{name}: {error:?}");

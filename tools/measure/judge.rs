@@ -54,6 +54,9 @@ pub struct Options {
     /// Height of the pictures in pixels; they are 4 wide for 3 high.
     #[arg(long, default_value_t = 150, value_parser = clap::value_parser!(u32).range(30..=2160))]
     height: u32,
+    /// Judge one straight yarn instead of fabric.
+    #[arg(long)]
+    straight: bool,
     /// Set a scene key of the judged side. May be given more than once.
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
@@ -79,7 +82,8 @@ pub fn run(stage: &Stage, options: &Options) -> Result<(), Error> {
     let [width, height] = size(options);
     let lines = [
         format!(
-            "stockinette, {width} x {height} pixels; errors over the pixels that yarn covers in either picture"
+            "{}, {width} x {height} pixels; errors over the pixels that yarn covers in either picture",
+            cloth(options).name()
         ),
         format!(
             "reference: every fiber traced with shadows by fibers and no bounces; {} samples a pixel on both sides",
@@ -111,7 +115,7 @@ pub fn run(stage: &Stage, options: &Options) -> Result<(), Error> {
     ]);
     let mut blamed = Vec::new();
     for (yarn, word, fiber_px) in rows {
-        let model = stage.model(yarn, CLOTH)?;
+        let model = stage.model(yarn, cloth(options))?;
         let view = view(&model, fiber_px, options);
         let name = format!("{yarn} {word}");
         let [all, rest @ ..] = PARTS;
@@ -129,6 +133,10 @@ pub fn run(stage: &Stage, options: &Options) -> Result<(), Error> {
         print_switches(stage, (name, model), view, truth, options)?;
     }
     Ok(())
+}
+
+fn cloth(options: &Options) -> Cloth {
+    if options.straight { Cloth::Straight } else { CLOTH }
 }
 
 fn size(options: &Options) -> [u32; 2] {

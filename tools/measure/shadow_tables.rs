@@ -10,6 +10,7 @@ use worsted::precompute::occlusion_table::{
     OCCLUSION_ACROSS, OCCLUSION_LIMIT, bake_occlusion_table, exact_occlusion, occlusion_place,
     texture_occlusion,
 };
+use worsted::precompute::optical_depth::CrossSection;
 use worsted::precompute::self_shadow::{
     SELF_SHADOW_LIMIT, SelfShadowSize, bake_self_shadow, exact_self_shadow_depth, self_shadow_depth,
     self_shadow_place,
@@ -104,9 +105,10 @@ fn self_shadow_error(yarn: &YarnParams, size: SelfShadowSize, count: u32) -> (Ta
     let started = Instant::now();
     let table = bake_self_shadow(yarn, size);
     let ms = 1e3 * started.elapsed().as_secs_f64();
+    let section = CrossSection::new(yarn);
     let pair = |(position, light): (DVec2, DVec2)| {
         let place = self_shadow_place(position, light, yarn.ply_count, size);
-        (self_shadow_depth(&table, place), exact_self_shadow_depth(yarn, position, light))
+        (self_shadow_depth(&table, place), exact_self_shadow_depth(&section, position, light))
     };
     let places: Vec<_> = places(count).collect();
     (TableError::new(&places.into_par_iter().map(pair).collect::<Vec<_>>(), table.largest()), ms)
@@ -116,10 +118,11 @@ fn occlusion_error(yarn: &YarnParams, across: u32, count: u32) -> (TableError, f
     let started = Instant::now();
     let table = bake_occlusion_table(yarn, extinction_per_mm(yarn), across);
     let ms = 1e3 * started.elapsed().as_secs_f64();
+    let section = CrossSection::new(yarn);
     let pair = |position: DVec2| {
         (
             texture_occlusion(&table, occlusion_place(position, across)),
-            exact_occlusion(yarn, extinction_per_mm(yarn), position),
+            exact_occlusion(&section, extinction_per_mm(yarn), position),
         )
     };
     let places: Vec<_> = places(count).map(|(position, _)| position).collect();

@@ -3,6 +3,7 @@
 
 use crate::looks;
 use crate::pictures::Shot;
+use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tempfile::TempDir;
@@ -10,7 +11,7 @@ use worsted::error::Error;
 use worsted::frame::sampling::Sampling;
 use worsted::frame::{Renderer, Request};
 use worsted::io::bcc::write_bcc;
-use worsted::io::curves::CurveSet;
+use worsted::io::curves::{Basis, Curve, CurveSet};
 use worsted::io::error::FileError;
 use worsted::knit::params::KnitParams;
 use worsted::knit::stockinette::stockinette;
@@ -45,6 +46,8 @@ pub enum Cloth {
         /// Rounds of loops.
         courses: u32,
     },
+    /// One straight yarn, which nothing but its own fibers shadows.
+    Straight,
 }
 
 impl Cloth {
@@ -53,6 +56,7 @@ impl Cloth {
         match self {
             Self::Stockinette { .. } => "stockinette",
             Self::Tube { .. } => "tube",
+            Self::Straight => "straight yarn",
         }
     }
 
@@ -64,8 +68,16 @@ impl Cloth {
             Self::Tube { wales, courses } => {
                 tube(&KnitParams { wales, courses, yarn_radius_mm, ..KnitParams::tube() })?
             }
+            Self::Straight => straight(yarn_radius_mm),
         })
     }
+}
+
+/// Along X, longer than any close view is wide.
+fn straight(yarn_radius_mm: f64) -> CurveSet {
+    let points = (-100..=100).map(|i| DVec3::new(f64::from(i) * yarn_radius_mm, 0.0, 0.0)).collect();
+    let curve = Curve { points, closed: false };
+    CurveSet { basis: Basis::CatmullRom, up_axis: None, curves: vec![curve] }
 }
 
 /// A fabric as a scene file.
@@ -124,7 +136,7 @@ impl Stage {
         let front_mm = in_the_middle.fold(0.0, |most: f64, p| most.max(p.z)) + params.outer_radius_mm();
         let reach_mm = points().fold(0.0, |most: f64, p| most.max(p.x.hypot(p.z)));
 
-        let model = format!("{yarn}-{}.bcc", cloth.name());
+        let model = format!("{yarn}-{}.bcc", cloth.name()).replace(' ', "-");
         write_bcc(&self.folder.path().join(&model), &curves)?;
         let mut file = SceneFile { fiber: looks::fiber(yarn), ..Default::default() };
         file.yarn.insert("preset".into(), yarn.into());
