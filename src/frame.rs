@@ -128,11 +128,20 @@ impl Renderer {
             stats.add_precompute("environment", started.elapsed());
         }
         let mut first_piece = 0;
+        let cross_sections: Vec<_> =
+            scene.fabrics.iter().map(|fabric| fiber_table(&fabric.yarn, scene.file.seed)).collect();
+        let of_fabrics = scene.fabrics.iter().zip(&features).zip(&cross_sections);
+        let bakes: Vec<Bakes> = of_fabrics
+            .map(|((fabric, features), fibers)| Bakes::new(&scene, fabric, features, fibers, &mut stats))
+            .collect();
+        let skies = bake::skies(&scene, &bakes, &features, &mut stats);
         for (index, (fabric, features)) in scene.fabrics.iter().zip(features).enumerate() {
-            let cross_section = fiber_table(&fabric.yarn, scene.file.seed);
-            let bakes = Bakes::new(&scene, fabric, &features, &cross_section, &mut stats);
-            let buffers =
-                upload::fabric_buffers(device, &scene, fabric, &cross_section, &bakes, first_piece)?;
+            let baked = upload::FabricBakes {
+                cross_section: &cross_sections[index],
+                bakes: &bakes[index],
+                skies: skies.as_ref().map(|skies| &skies[index][..]),
+            };
+            let buffers = upload::fabric_buffers(device, &scene, fabric, &baked, first_piece)?;
             fibers.add_fabric(&buffers, features, samples)?;
             let pieces = fabric.strands.pieces.len() as u32;
             if let Some(sets) = fibers.sets(index).filter(|_| light_room.views > 0) {

@@ -155,8 +155,14 @@ pub struct Yarn {
     pub scattering_entries: u32,
     /// Of this fabric's pieces, counted through all fabrics.
     pub first_piece: u32,
+    /// Of the opaque tube that takes as much light from others.
+    pub shadow_radius: f32,
+    /// Nothing.
+    pub padding: [u32; 3],
     /// Visibility as a cubic of (distance from the centre / outer radius).
     pub occlusion: [f32; 4],
+    /// How much more of it comes from outside than from the other side, likewise.
+    pub occlusion_lean: [f32; 4],
     /// k_d, rgb, and extinction per outer radius.
     pub diffuse: [f32; 4],
     /// k_s, rgb, and beta in radians.

@@ -27,4 +27,7 @@ layout(std430, set = 1, binding = 7) readonly buffer ScatteringBlock { vec4 scat
 layout(set = 1, binding = 8) uniform sampler3D self_shadow_table;
 layout(set = 1, binding = 9) uniform sampler2D occlusion_table;
 
+// For each control point four halves: src/precompute/sky.rs.
+layout(std430, set = 1, binding = 10) readonly buffer SkyBlock { uvec2 skies[]; };
+
 #endif

@@ -23,7 +23,7 @@ void main() {
     CurvePoint at = bezier_point(b, tube_row(row));
     vec3 tangent = piece_tangent(b, at.derivative);
     vec3 toward = direction_or(view.toward.xyz - view.toward.w * at.position, vec3(0.0, 0.0, 1.0));
-    vec3 corner = tube_corner(at.position, tangent, toward, yarn.outer_radius, row, edge);
+    vec3 corner = tube_corner(at.position, tangent, toward, yarn.shadow_radius, row, edge);
     gl_Position = view.clip_from_world * vec4(corner, 1.0);
     depth_mm = dot(view.depth_axis.xyz, corner) + view.depth_axis.w;
     piece = yarn.first_piece + index;

@@ -11,6 +11,7 @@
 #include "../shading/light.glsl"
 #include "../shading/occlusion.glsl"
 #include "../shading/self_shadow.glsl"
+#include "../shading/sky.glsl"
 #include "shadowed.glsl"
 #include "../shared/debug_views.glsl"
 #include "../yarn/period.glsl"
@@ -121,6 +122,17 @@ float visible_from(vec2 place) {
     return distance_occlusion(yarn.occlusion, length(place));
 }
 
+// What other yarns leave open of the sky, between the piece's two inner control points.
+vec4 open_sky(Strand strand) {
+    uint first = segments[strand.piece].first_point + 1u;
+    vec3 start = control_points[first].position;
+    vec3 along = control_points[first + 1u].position - start;
+    float share = clamp(dot(strand.position - start, along) / max(dot(along, along), 1e-12), 0.0, 1.0);
+    vec4 from = vec4(unpackHalf2x16(skies[first].x), unpackHalf2x16(skies[first].y));
+    vec4 to = vec4(unpackHalf2x16(skies[first + 1u].x), unpackHalf2x16(skies[first + 1u].y));
+    return mix(from, to, share);
+}
+
 // Share of a light that neither its own yarn nor another takes from a fiber.
 float unshadowed(Strand strand, Light light, vec3 to_light) {
     float share = SELF_SHADOW ? through_yarn(strand, to_light) : 1.0;
@@ -160,6 +172,22 @@ vec3 ambient(Strand strand, vec3 to_eye, float visibility) {
     vec3 reflected_light = frame.ambient_radiance.rgb;
     vec3 transmitted_light = reflected_light;
     vec3 diffuse_light = reflected_light;
+    float behind = visibility;
+    if (SELF_SHADOW && PHYSICAL && SPECULAR) {
+        behind = through_yarn(strand, -to_eye);
+    }
+    vec2 place = mix(strand.near_place, strand.far_place, strand.far_share);
+    vec3 outward = place.x * strand.ply_normal + place.y * strand.ply_binormal;
+    if (DISTANCE_OCCLUSION || TEXTURE_OCCLUSION) {
+        float distance = length(place);
+        float facing = dot(strand.toward, outward) / max(distance, 1e-6);
+        visibility = reflected_occlusion(visibility, yarn.occlusion_lean, distance, facing);
+    }
+    if (YARN_OCCLUSION) {
+        vec4 sky = open_sky(strand);
+        visibility *= sky_toward(sky, sky_gathered(strand.toward, outward));
+        behind *= sky_toward(sky, -to_eye);
+    }
     if (ENVIRONMENT) {
         diffuse_light = environment_diffuse(frame.environment, strand.normals, strand.side, strand.toward);
     }
@@ -179,7 +207,6 @@ vec3 ambient(Strand strand, vec3 to_eye, float visibility) {
         }
         vec3 reflected, transmitted;
         ambient_scattering(strand.tangent, to_eye, scattering, reflected, transmitted);
-        float behind = SELF_SHADOW ? through_yarn(strand, -to_eye) : visibility;
         sum += reflected * reflected_light * visibility + transmitted * transmitted_light * behind;
     }
     return sum;

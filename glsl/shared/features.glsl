@@ -23,5 +23,6 @@ layout(constant_id = 17) const bool SHADOW_MAP = true;  // yarns shadow one anot
 layout(constant_id = 18) const bool SOFT_SHADOWS = true; // some light spans an angle
 layout(constant_id = 19) const bool SELF_SHADOW = true; // light is dimmed inside the yarn
 layout(constant_id = 20) const bool TEXTURE_OCCLUSION = false; // ambient light by place, not by distance
+layout(constant_id = 21) const bool YARN_OCCLUSION = true; // other yarns hide parts of the sky
 
 #endif

@@ -78,7 +78,10 @@ struct Yarn {
     float n_tt;             // 1 / (2 pi exp(-k) I0(k)), k = k_tt
     uint scattering_entries; // of each lobe's table
     uint first_piece;       // of this fabric's, counted through all fabrics
+    float shadow_radius;    // of the opaque tube that takes as much light from others
+    uint padding[3];
     vec4 occlusion;         // visibility as a cubic of (distance from the centre / outer_radius)
+    vec4 occlusion_lean;    // how much more of it comes from outside, likewise
     vec4 diffuse;           // k_d, rgb; a: extinction per outer_radius
     vec4 specular;          // k_s, rgb; a: beta, radians
     vec4 reflection;        // C_R, rgb; a: beta_R, radians

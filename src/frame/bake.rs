@@ -2,21 +2,27 @@
 
 use super::stats::Stats;
 use crate::precompute::core_texture::{CoreTexture, bake_core};
-use crate::precompute::occlusion_fit::fit_distance_occlusion;
+use crate::precompute::occlusion_fit::{fit_distance_occlusion, fit_occlusion_lean};
 use crate::precompute::occlusion_table::{OCCLUSION_ACROSS, OcclusionTable, bake_occlusion_table};
+use crate::precompute::optical_depth::CrossSection;
 use crate::precompute::scattering_table::{self, ScatteringTable};
 use crate::precompute::self_shadow::{SelfShadowSize, SelfShadowTable, bake_self_shadow};
+use crate::precompute::shadow_radius::shadow_radius_mm;
+use crate::precompute::sky::{SkyYarns, bake_skies};
 use crate::scene::features::Features;
 use crate::scene::{Fabric, Scene};
 use crate::yarn::density::extinction_per_mm;
 use crate::yarn::table::Fiber;
 use glam::DVec4;
+use half::f16;
 use std::time::Instant;
 
 /// A fabric's tables; absent where nothing reads them.
 pub struct Bakes {
     /// Visibility as a cubic of the distance from the yarn's centre.
     pub occlusion: Option<DVec4>,
+    /// How much more of it comes from outside than from the other side, likewise; 0 where nothing is occluded.
+    pub occlusion_lean: DVec4,
     /// What core fibers show.
     pub core: Option<CoreTexture>,
     /// Factors of the physical model's lobes.
@@ -25,6 +31,8 @@ pub struct Bakes {
     pub self_shadow: Option<SelfShadowTable>,
     /// Ambient light inside the yarn, by place.
     pub occlusion_texture: Option<OcclusionTable>,
+    /// Radius of the opaque tube that takes as much light from other yarns; the outer radius where nothing reads it.
+    pub shadow_radius_mm: f64,
     /// Extinction per outer radius of the yarn.
     pub extinction: f64,
 }
@@ -45,20 +53,47 @@ impl Bakes {
         let yarn = &fabric.yarn;
         let extinction_per_mm = scene.file.shading.extinction_scale * extinction_per_mm(yarn);
         let distance = || fit_distance_occlusion(yarn, extinction_per_mm);
+        let leaning = || fit_occlusion_lean(yarn, extinction_per_mm);
+        let occluded = features.ambient && (features.distance_occlusion || features.texture_occlusion);
         let texels = quality.occlusion_texels.unwrap_or(OCCLUSION_ACROSS);
         let texture = || bake_occlusion_table(yarn, extinction_per_mm, texels);
         let size = quality
             .self_shadow_texels
             .map_or_else(SelfShadowSize::default, |across| SelfShadowSize { across, slices: across / 4 });
+        let shadow = || shadow_radius_mm(&CrossSection::new(yarn), extinction_per_mm);
+        let hides = features.shadow_map || features.yarn_occlusion;
         let depth = || bake_self_shadow(yarn, size);
         Self {
             occlusion: features.distance_occlusion.then(|| timed(stats, "distance_occlusion", distance)),
+            occlusion_lean: if occluded { timed(stats, "occlusion_lean", leaning) } else { DVec4::ZERO },
             occlusion_texture: features.texture_occlusion.then(|| timed(stats, "occlusion_texture", texture)),
             self_shadow: features.self_shadow.then(|| timed(stats, "self_shadow", depth)),
+            shadow_radius_mm: if hides { shadow() } else { yarn.outer_radius_mm() },
             extinction: extinction_per_mm * yarn.outer_radius_mm(),
             core: features.core_fibers.then(|| timed(stats, "core_texture", core)),
             scattering: features.physical.then(|| timed(stats, "scattering_table", scattering)),
         }
+    }
+}
+
+/// What is open of the sky above every control point of every fabric, where any of them asks for it.
+pub fn skies(
+    scene: &Scene,
+    bakes: &[Bakes],
+    features: &[Features],
+    stats: &mut Stats,
+) -> Option<Vec<Vec<[f16; 4]>>> {
+    features.iter().any(|features| features.yarn_occlusion).then(|| {
+        let yarns: Vec<SkyYarns<'_>> = scene.fabrics.iter().zip(bakes).map(sky_yarns).collect();
+        timed(stats, "sky", || bake_skies(&yarns))
+    })
+}
+
+fn sky_yarns<'a>((fabric, bakes): (&'a Fabric, &Bakes)) -> SkyYarns<'a> {
+    SkyYarns {
+        strands: &fabric.strands,
+        hiding_radius_mm: bakes.shadow_radius_mm,
+        outer_radius_mm: fabric.yarn.outer_radius_mm(),
     }
 }
 

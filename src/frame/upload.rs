@@ -20,6 +20,7 @@ use crate::yarn::params::Spread;
 use crate::yarn::strand::Piece;
 use crate::yarn::table;
 use glam::{DMat4, DVec3, DVec4};
+use half::f16;
 use std::sync::Arc;
 
 /// Control points relative to the scene's origin: subtracted in f64, so that far-off models keep
@@ -127,10 +128,13 @@ pub fn yarn(fabric: &Fabric, quality: &QualityTable, bakes: &Bakes, first_piece:
         slot_stride: slot_stride(params.fiber_count()),
         reach: flyaways.reach_mm as f32,
         occlusion: occlusion.as_vec4().to_array(),
+        occlusion_lean: bakes.occlusion_lean.as_vec4().to_array(),
         k_tt: k_tt as f32,
         n_tt: n_tt as f32,
         scattering_entries: quality.scattering_entries,
         first_piece,
+        shadow_radius: bakes.shadow_radius_mm as f32,
+        padding: [0; 3],
         diffuse: with(DVec3::from_array(fiber.diffuse()), bakes.extinction),
         specular: with(DVec3::from_array(fiber.specular()), fiber.specular_width()),
         reflection: with(scattering.c_r, scattering.beta_r),
@@ -182,8 +186,19 @@ fn columns(m: DMat4) -> [[f32; 4]; 4] {
     m.as_mat4().to_cols_array_2d()
 }
 
-/// Uploads a fabric whose fibers are `cross_section` and whose pieces come after `first_piece` others, once. Without a core the shaders never read its texture,
-/// but a descriptor must be there: one texel stands in.
+/// What is uploaded with one fabric.
+#[derive(Clone, Copy)]
+pub struct FabricBakes<'a> {
+    /// Its fibers.
+    pub cross_section: &'a [table::Fiber],
+    /// Its tables.
+    pub bakes: &'a Bakes,
+    /// What is open of the sky above each of its control points, where something reads it.
+    pub skies: Option<&'a [[f16; 4]]>,
+}
+
+/// Uploads a fabric whose pieces come after `first_piece` others, once. Without a core the shaders never read its
+/// texture, but a descriptor must be there: one texel stands in.
 ///
 /// # Errors
 /// Those of the device.
@@ -191,10 +206,10 @@ pub fn fabric_buffers(
     device: &Arc<Device>,
     scene: &Scene,
     fabric: &Fabric,
-    cross_section: &[table::Fiber],
-    bakes: &Bakes,
+    baked: &FabricBakes<'_>,
     first_piece: u32,
 ) -> Result<FabricBuffers, VulkanError> {
+    let FabricBakes { cross_section, bakes, skies } = *baked;
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
     let points = control_points(fabric, scene.origin_mm);
     let yarn = yarn(fabric, &scene.file.quality, bakes, first_piece, scene.file.seed);
@@ -210,5 +225,6 @@ pub fn fabric_buffers(
         scattering: Buffer::upload(device, "scattering table", usage, scattering)?,
         self_shadow: textures::self_shadow_image(device, bakes.self_shadow.as_ref())?,
         occlusion: textures::occlusion_image(device, bakes.occlusion_texture.as_ref())?,
+        skies: Buffer::upload(device, "skies", usage, skies.unwrap_or(&[[f16::ZERO; 4]]))?,
     })
 }

@@ -37,6 +37,8 @@ pub struct FabricBuffers {
     pub self_shadow: Image,
     /// Ambient light over the yarn's cross-section.
     pub occlusion: Image,
+    /// What is open of the sky at each control point: four halves.
+    pub skies: Buffer,
 }
 
 /// What all shaders read of one frame, in the order of set 0's bindings.
@@ -90,8 +92,8 @@ impl FibersPass {
         let frame_kinds = [uniform, storage, storage, storage, texture];
         let frame_bindings: [_; 5] = std::array::from_fn(|i| binding(i as u32, frame_kinds[i]));
         let frame_layout = DescriptorLayout::new(device, "frame", &frame_bindings)?;
-        let kind_of = |i| if i < 4 || i == 7 { storage } else { texture };
-        let fabric_bindings: [_; 10] = std::array::from_fn(|i| binding(i as u32, kind_of(i)));
+        let kind_of = |i| if i < 4 || i == 7 || i == 10 { storage } else { texture };
+        let fabric_bindings: [_; 11] = std::array::from_fn(|i| binding(i as u32, kind_of(i)));
         let fabric_layout = DescriptorLayout::new(device, "fabric", &fabric_bindings)?;
         // Bits, not numbers: nothing to blend.
         let nearest = SamplerInfo { filter: vk::Filter::NEAREST, ..Default::default() };
@@ -160,6 +162,7 @@ impl FibersPass {
             (7, Resource::Storage(&buffers.scattering)),
             (8, Resource::Sampled(buffers.self_shadow.view(), &self.table_sampler)),
             (9, Resource::Sampled(buffers.occlusion.view(), &self.table_sampler)),
+            (10, Resource::Storage(&buffers.skies)),
         ];
         let set = DescriptorSet::new(&self.fabric_layout, "fabric", &resources)?;
         let fabric = self.fabrics.len();

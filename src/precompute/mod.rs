@@ -9,5 +9,7 @@ pub mod occlusion_table;
 pub mod optical_depth;
 pub mod scattering_table;
 pub mod self_shadow;
+pub mod shadow_radius;
+pub mod sky;
 pub mod table;
 pub mod table_error;

@@ -20,14 +20,27 @@ pub fn ambient_visibility(section: &CrossSection<'_>, position: DVec2, extinctio
     (0..DIRECTIONS).map(visibility).sum::<f64>() / f64::from(DIRECTIONS)
 }
 
-/// Mean of [`ambient_visibility`] over the circle at `share` of the outer radius.
-fn radial_average(section: &CrossSection<'_>, share: f64, extinction_per_mm: f64) -> f64 {
+/// How much more of it comes from `outward` (unit) than from the other side: twice the mean of the same times the
+/// cosine of the angle from there, so that visibility by direction is about its mean plus this times that cosine.
+fn ambient_lean(section: &CrossSection<'_>, position: DVec2, outward: DVec2, extinction_per_mm: f64) -> f64 {
+    let visibility = |i: u32| {
+        let direction = DVec2::from_angle(TAU * (f64::from(i) + 0.5) / f64::from(DIRECTIONS));
+        let depth = optical_depth_mm(section, position, direction);
+        direction.dot(outward) * (-extinction_per_mm * depth).exp()
+    };
+    2.0 * (0..DIRECTIONS).map(visibility).sum::<f64>() / f64::from(DIRECTIONS)
+}
+
+/// Mean of `of`, given a place in mm and the unit direction to it from the yarn's centre, over the circle at `share` of
+/// the outer radius.
+fn radial_average(section: &CrossSection<'_>, share: f64, of: &impl Fn(DVec2, DVec2) -> f64) -> f64 {
     let yarn = section.yarn;
     let radius = share * yarn.outer_radius_mm();
     let at = |i: u32| {
         // One ply's share of the circle stands for all.
         let angle = TAU * (f64::from(i) + 0.5) / f64::from(AROUND * yarn.ply_count);
-        ambient_visibility(section, radius * DVec2::from_angle(angle), extinction_per_mm)
+        let outward = DVec2::from_angle(angle);
+        of(radius * outward, outward)
     };
     (0..AROUND).map(at).sum::<f64>() / f64::from(AROUND)
 }
@@ -36,6 +49,16 @@ fn radial_average(section: &CrossSection<'_>, share: f64, extinction_per_mm: f64
 /// of the visibility (Wu & Yuksel 2019, Sec. 4.2). Where the cubic leaves [0, 1] the shader clamps it.
 pub fn fit_distance_occlusion(yarn: &YarnParams, extinction_per_mm: f64) -> DVec4 {
     let section = CrossSection::new(yarn);
+    fit(&section, |position, _| ambient_visibility(&section, position, extinction_per_mm))
+}
+
+/// The same of how much more ambient light comes from outside than from the other side: 0 where both are alike.
+pub fn fit_occlusion_lean(yarn: &YarnParams, extinction_per_mm: f64) -> DVec4 {
+    let section = CrossSection::new(yarn);
+    fit(&section, |position, outward| ambient_lean(&section, position, outward, extinction_per_mm))
+}
+
+fn fit(section: &CrossSection<'_>, of: impl Fn(DVec2, DVec2) -> f64) -> DVec4 {
     let (mut normal, mut right) = (DMat4::ZERO, DVec4::ZERO);
     for i in 0..DISTANCES {
         let d = f64::from(i) / f64::from(DISTANCES - 1);
@@ -43,7 +66,7 @@ pub fn fit_distance_occlusion(yarn: &YarnParams, extinction_per_mm: f64) -> DVec
         let outer =
             DMat4::from_cols(powers * powers.x, powers * powers.y, powers * powers.z, powers * powers.w);
         normal += outer;
-        right += powers * radial_average(&section, d, extinction_per_mm);
+        right += powers * radial_average(section, d, &of);
     }
     normal.inverse() * right
 }
@@ -52,6 +75,15 @@ pub fn fit_distance_occlusion(yarn: &YarnParams, extinction_per_mm: f64) -> DVec
 pub fn distance_occlusion(cubic: DVec4, distance: f64) -> f64 {
     let d = distance.clamp(0.0, 1.0);
     cubic.dot(DVec4::new(1.0, d, d * d, d * d * d)).clamp(0.0, 1.0)
+}
+
+/// Share of ambient light that a fiber reflects, of which `visibility` reaches it from all around: R's azimuthal lobe,
+/// cos(phi / 2) about the viewer, has a third of what leans toward there. `facing` is the cosine of the angle between
+/// the way out of the yarn and the viewer, `distance` the fiber's from the yarn's centre as a share of the outer radius.
+pub fn reflected_occlusion(visibility: f64, lean: DVec4, distance: f64, facing: f64) -> f64 {
+    let d = distance.clamp(0.0, 1.0);
+    let leaning = lean.dot(DVec4::new(1.0, d, d * d, d * d * d));
+    (visibility + leaning * facing / 3.0).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]
@@ -65,10 +97,11 @@ mod tests {
         let yarn = presets::yarn("worsted_3ply").unwrap();
         let extinction = extinction_per_mm(&yarn);
         let section = CrossSection::new(&yarn);
+        let seen = |position: DVec2, _: DVec2| ambient_visibility(&section, position, extinction);
         let cubic = fit_distance_occlusion(&yarn, extinction);
         for i in 0..=20 {
             let d = f64::from(i) / 20.0;
-            let (fitted, exact) = (distance_occlusion(cubic, d), radial_average(&section, d, extinction));
+            let (fitted, exact) = (distance_occlusion(cubic, d), radial_average(&section, d, &seen));
             assert!((fitted - exact).abs() < 0.06, "at {d}: {fitted} vs {exact}");
         }
         assert!(distance_occlusion(cubic, 0.0) < distance_occlusion(cubic, 1.0));
@@ -80,5 +113,39 @@ mod tests {
         let section = CrossSection::new(&yarn);
         assert_eq!(ambient_visibility(&section, DVec2::ZERO, 0.0), 1.0);
         assert!(ambient_visibility(&section, DVec2::new(yarn.ply_offset_mm(), 0.0), 100.0) < 1e-3);
+    }
+
+    /// Against the mean over R's lobe itself, about a viewer to any side.
+    #[test]
+    fn what_is_reflected_is_what_the_lobe_sees() {
+        for name in ["worsted_3ply", "rayon1"] {
+            let yarn = presets::yarn(name).unwrap();
+            let (section, extinction) = (CrossSection::new(&yarn), extinction_per_mm(&yarn));
+            let lean = fit_occlusion_lean(&yarn, extinction);
+            let (mut worst, mut without) = (0f64, 0f64);
+            for distance in [0.0, 0.3, 0.6, 0.9, 1.0] {
+                for viewer in 0..8 {
+                    let viewer = TAU * f64::from(viewer) / 8.0;
+                    let lobe = |position: DVec2, outward: DVec2| {
+                        let n = 96;
+                        let light = |i: u32| {
+                            let phi = TAU * ((f64::from(i) + 0.5) / f64::from(n) - 0.5);
+                            let toward = DVec2::from_angle(viewer + phi).rotate(outward);
+                            let depth = optical_depth_mm(&section, position, toward);
+                            (0.5 * phi).cos() * (-extinction * depth).exp()
+                        };
+                        (0..n).map(light).sum::<f64>() * TAU / f64::from(n) / 4.0
+                    };
+                    let exact = radial_average(&section, distance, &lobe);
+                    let all = |position: DVec2, _: DVec2| ambient_visibility(&section, position, extinction);
+                    let all = radial_average(&section, distance, &all);
+                    let found = reflected_occlusion(all, lean, distance, viewer.cos());
+                    worst = worst.max((found - exact).abs());
+                    without = without.max((all - exact).abs());
+                }
+            }
+            println!("{name}: {worst:.3}, without {without:.3}");
+            assert!(worst < 0.05 && without > 2.0 * worst, "{name}: {worst}, without the lean {without}");
+        }
     }
 }

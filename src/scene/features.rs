@@ -32,6 +32,8 @@ pub struct Features {
     pub self_shadow: bool,
     /// Ambient light is dimmed by place inside the yarn, not by distance.
     pub texture_occlusion: bool,
+    /// Other yarns hide parts of the sky.
+    pub yarn_occlusion: bool,
     /// Ambient light exists.
     pub ambient: bool,
     /// Lights of which anything arrives.
@@ -80,6 +82,7 @@ pub enum SpecializationId {
     SoftShadows = 18,
     SelfShadow = 19,
     TextureOcclusion = 20,
+    YarnOcclusion = 21,
 }
 
 impl Features {
@@ -112,6 +115,7 @@ impl Features {
             culling: file.quality.culling,
             distance_occlusion: dimmed && file.occlusion.mode == OcclusionMode::Distance,
             texture_occlusion: dimmed && file.occlusion.mode == OcclusionMode::Texture,
+            yarn_occlusion: ambient && file.occlusion.yarns && file.occlusion.mode != OcclusionMode::None,
             shadow_map: lit && file.shadow.map,
             soft_shadows: lit && file.shadow.map && soft,
             self_shadow: file.shadow.inside && (lit || ambient && lobes),
@@ -134,7 +138,7 @@ impl Features {
 
     /// Identifier and value of every specialization constant, booleans as 0 and 1, for frames of `samples`
     /// samples a pixel.
-    pub fn specialization(&self, samples: u32) -> [(SpecializationId, u32); 21] {
+    pub fn specialization(&self, samples: u32) -> [(SpecializationId, u32); 22] {
         use SpecializationId as Id;
         [
             (Id::Basis, self.basis as u32),
@@ -158,6 +162,7 @@ impl Features {
             (Id::SoftShadows, self.soft_shadows.into()),
             (Id::SelfShadow, self.self_shadow.into()),
             (Id::TextureOcclusion, self.texture_occlusion.into()),
+            (Id::YarnOcclusion, self.yarn_occlusion.into()),
         ]
     }
 
@@ -191,6 +196,11 @@ impl Features {
             shaded && !self.distance_occlusion && !self.texture_occlusion,
             "occlusion",
             if self.ambient { "occlusion.mode is none" } else { "no ambient light to dim" },
+        );
+        leave(
+            self.ambient && !self.yarn_occlusion,
+            "yarn_occlusion",
+            "occlusion.yarns is false, or occlusion.mode none",
         );
         leave(shaded && light && !self.shadow_map, "shadow_map", "shadow.map is false");
         leave(self.shadow_map && !self.soft_shadows, "soft_shadows", "no light has an angular_size_deg");

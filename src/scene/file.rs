@@ -30,7 +30,7 @@ pub struct SceneFile {
     pub shading: ShadingTable,
     /// Shadows between yarns and inside of them.
     pub shadow: ShadowTable,
-    /// Ambient occlusion inside the yarn.
+    /// Ambient occlusion inside the yarn, and by other yarns.
     pub occlusion: OcclusionTable,
     /// What is traded for time.
     pub quality: QualityTable,
@@ -125,12 +125,20 @@ pub enum ShadingModel {
     Simple,
 }
 
-/// Ambient occlusion inside the yarn.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// Ambient occlusion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct OcclusionTable {
-    /// How it is worked out.
+    /// How it is worked out inside the yarn.
     pub mode: OcclusionMode,
+    /// Other yarns hide parts of the sky as well; not with mode "none".
+    pub yarns: bool,
+}
+
+impl Default for OcclusionTable {
+    fn default() -> Self {
+        Self { mode: OcclusionMode::default(), yarns: true }
+    }
 }
 
 /// Ways to work out ambient occlusion.

@@ -1,12 +1,14 @@
-//! `glsl/shading/table.glsl`, `self_shadow.glsl` and the places of `occlusion.glsl`; what reads a texture is in
+//! `glsl/shading/table.glsl`, `self_shadow.glsl`, `sky.glsl` and the places of `occlusion.glsl`; what reads a texture is in
 //! `table_reads.rs`.
 
 use crate::harness::{Args, Case, Row, number, vector};
 use crate::inputs::{Random, random_rows, row};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
+use worsted::precompute::occlusion_fit;
 use worsted::precompute::occlusion_table::occlusion_place as occlusion_place_twin;
 use worsted::precompute::self_shadow::{self, SelfShadowSize};
+use worsted::precompute::sky;
 use worsted::precompute::table;
 
 /// Below this a share has no relative error worth speaking of.
@@ -21,6 +23,9 @@ pub fn cases() -> Vec<Case> {
         self_shadow_stretch(),
         self_shadow_light(),
         occlusion_place(),
+        reflected_occlusion(),
+        sky_toward(),
+        sky_gathered(),
     ]
 }
 
@@ -136,4 +141,55 @@ fn occlusion_place() -> Case {
         },
         invariant: None,
     }
+}
+
+fn reflected_occlusion() -> Case {
+    let args = |visibility: f64, lean: [f64; 4], distance: f64, facing: f64| {
+        let reals = lean.into_iter().fold(row().real(visibility), |row, c| row.real(c));
+        reals.real(distance).real(facing).end()
+    };
+    let mut rows = random_rows("reflected_occlusion", |random| {
+        let lean = std::array::from_fn(|_| random.between(-1.5, 1.5));
+        let visibility = random.between(0.0, 1.0);
+        args(visibility, lean, random.between(-0.2, 1.4), random.between(-1.0, 1.0))
+    });
+    for lean in [[0.0; 4], [0.0, 0.3, 0.2, 0.1], [1e3, 1.0, 1.0, 1.0]] {
+        rows.extend(
+            [(0.0, 0.0), (1.0, -1.0), (1e6, 1.0)].map(|(distance, facing)| args(0.5, lean, distance, facing)),
+        );
+    }
+    let twin = |args: &mut Args<'_>| {
+        let (visibility, lean) = (args.real(), args.vec4());
+        let share = occlusion_fit::reflected_occlusion(visibility, lean, args.real(), args.real());
+        vec![number("share", share, FLOOR)]
+    };
+    Case { function: "reflected_occlusion", rows, twin, invariant: None }
+}
+
+fn sky_toward() -> Case {
+    let skies = |x: f64, slope: DVec3, direction: DVec3| row().real(x).vec3(slope).vec3(direction).end();
+    let mut rows = random_rows("sky_toward", |random| {
+        let slope = random.between(0.0, 1.5) * random.unit();
+        skies(random.between(0.0, 1.0), slope, random.between(0.0, 1.0) * random.unit())
+    });
+    for direction in [DVec3::ZERO, DVec3::X, DVec3::NEG_Z] {
+        rows.extend([0.0, 0.5, 1.0, -1e6, 1e6].map(|x| skies(x, DVec3::splat(0.5), direction)));
+    }
+    let twin = |args: &mut Args<'_>| {
+        let sky = args.vec4();
+        vec![number("share", sky::sky_toward(sky, args.vec3()), FLOOR)]
+    };
+    Case { function: "sky_toward", rows, twin, invariant: None }
+}
+
+fn sky_gathered() -> Case {
+    let mut rows = random_rows("sky_gathered", |random| {
+        row().vec3(random.unit()).vec3(random.between(0.0, 3.0) * random.unit()).end()
+    });
+    rows.extend([DVec3::ZERO, 1e6 * DVec3::Y].map(|outward| row().vec3(DVec3::X).vec3(outward).end()));
+    let twin = |args: &mut Args<'_>| {
+        let toward = args.vec3();
+        vec![vector("direction", sky::sky_gathered(toward, args.vec3()), FLOOR)]
+    };
+    Case { function: "sky_gathered", rows, twin, invariant: None }
 }

@@ -27,6 +27,7 @@ fn rust_specialization() -> Vec<(u32, String)> {
         soft_shadows: false,
         self_shadow: false,
         texture_occlusion: false,
+        yarn_occlusion: false,
         ambient: false,
         light_count: 0,
         local_lights: false,

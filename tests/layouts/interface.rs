@@ -60,7 +60,7 @@ fn draws_strands(shader: &Reflected) -> bool {
 #[test]
 fn bindings_of_the_fiber_shaders_are_those_of_the_pass() {
     let sets = fiber_sets();
-    assert_eq!(sets.iter().map(Vec::len).collect::<Vec<_>>(), [5, 10]);
+    assert_eq!(sets.iter().map(Vec::len).collect::<Vec<_>>(), [5, 11]);
     let mut seen = Vec::new();
     for shader in reflection::all().iter().filter(|shader| draws_strands(shader)) {
         for descriptor in &shader.descriptors {

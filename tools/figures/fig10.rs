@@ -55,7 +55,7 @@ fn file(name: &str, width_mm: f64) -> SceneFile {
         // What is compared is fibers: no core may stand for any.
         debug: DebugTable { fibers: FibersShown::Every, ..Default::default() },
         // The reference's fibers know no yarn to be occluded by: so neither do ours.
-        occlusion: OcclusionTable { mode: OcclusionMode::None },
+        occlusion: OcclusionTable { mode: OcclusionMode::None, ..Default::default() },
         shadow: ShadowTable { map: false, inside: false, ..Default::default() },
         ..Default::default()
     }

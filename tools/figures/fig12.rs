@@ -136,7 +136,7 @@ fn file(dimmed: Dimmed) -> Result<SceneFile, Error> {
         fiber: fiber(YARN),
         shading: ShadingTable { model: ShadingModel::Simple, ..Default::default() },
         shadow: ShadowTable { map: dimmed.between_yarns, inside: dimmed.inside, ..Default::default() },
-        occlusion: OcclusionTable { mode: occlusion },
+        occlusion: OcclusionTable { mode: occlusion, ..Default::default() },
         camera: CameraTable {
             yaw_deg: 14.0,
             pitch_deg: Some(12.0),

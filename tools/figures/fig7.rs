@@ -70,7 +70,7 @@ fn scene(view: DebugView, mode: OcclusionMode) -> Result<Scene, Error> {
     let mut file = SceneFile {
         fiber: fiber(YARN),
         light: Some(Vec::new()),
-        occlusion: OcclusionTable { mode },
+        occlusion: OcclusionTable { mode, ..Default::default() },
         camera: camera(SIZE, width_mm, [0.0; 3]),
         display: DisplayTable { background: [0.02, 0.021, 0.024], ..Default::default() },
         debug: DebugTable { view, ..Default::default() },

@@ -34,11 +34,12 @@ const PARTS: [(&str, &[&str]); 3] = [
 /// What leaves out every shadow of the fast path.
 const UNSHADOWED: [&str; 3] = ["shadow.map=false", "shadow.self=false", "occlusion.mode=none"];
 /// What is changed about each approximation, one by one.
-const SWITCHES: [(&str, &[&str]); 8] = [
+const SWITCHES: [(&str, &[&str]); 9] = [
     ("default", &[]),
     ("every fiber, no level of detail", &[EVERY_FIBER]),
     ("straight pieces within 0.02 pixel", &["quality.subdivision_tolerance_px=0.02"]),
     ("occlusion by texture", &["occlusion.mode=texture"]),
+    ("no occlusion by other yarns", &["occlusion.yarns=false"]),
     ("no occlusion", &["occlusion.mode=none"]),
     ("shadow map of 4096", &["shadow.resolution=4096"]),
     ("no shadow map", &["shadow.map=false"]),
