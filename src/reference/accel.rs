@@ -117,7 +117,8 @@ impl<T: Stored> Accel<T> {
     fn box_ray(&self, ray: &Ray, [from, to]: [f64; 2]) -> BoxRay {
         let origin = (ray.origin + from * ray.direction).as_vec3a();
         let size = (self.high - self.low).max_element();
-        BoxRay::new(origin, ray.direction.as_vec3a(), 0.0, (to - from + MARGIN * size) as f32)
+        let direction = ray.direction.map(no_zero).as_vec3a();
+        BoxRay::new(origin, direction, 0.0, (to - from + MARGIN * size) as f32)
     }
 
     /// The first fiber that a ray enters, but for what it ignores.
@@ -149,6 +150,12 @@ impl<T: Stored> Accel<T> {
             if blocks { 0.0 } else { f32::INFINITY }
         })
     }
+}
+
+/// The hierarchy takes the inverse of a direction's parts, and their signs: where one is 0, and above all where it is
+/// -0, rays miss every box. A ray turned by as little as this stays within their margins.
+fn no_zero(part: f64) -> f64 {
+    if part.abs() < 1e-7 { 1e-7 } else { part }
 }
 
 /// Two pieces share the ball at their joint: the first along the fiber has it, in whatever order they are met.
@@ -199,7 +206,14 @@ mod tests {
         let mut rng = Rng::new(4, &[index]);
         let mut point = |size: f64| DVec3::from_array(std::array::from_fn(|_| size * (rng.uniform() - 0.5)));
         let (target, from) = (point(2.0), point(1.0));
-        let direction = from.normalize_or(DVec3::X);
+        // Some along axes, or at right angles to one.
+        let along = match index % 11 {
+            0 => from * DVec3::new(1.0, 0.0, -1.0),
+            1 => from * DVec3::new(-0.0, 1.0, 0.0),
+            2 => from * DVec3::new(-0.0, -0.0, -1.0),
+            _ => from,
+        };
+        let direction = along.normalize_or(DVec3::X);
         // Some from far away, some from among the fibers.
         Ray { origin: target - [0.0, 5.0, 900.0][index as usize % 3] * direction, direction }
     }
