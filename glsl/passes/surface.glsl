@@ -122,6 +122,14 @@ float visible_from(vec2 place) {
     return distance_occlusion(yarn.occlusion, length(place));
 }
 
+// Share of ambient light that comes through to a place in the cross-section and is reflected from there.
+float reflected_from(Strand strand, vec2 place) {
+    float distance = length(place);
+    vec3 outward = place.x * strand.ply_normal + place.y * strand.ply_binormal;
+    float facing = dot(strand.toward, outward) / max(distance, 1e-6);
+    return reflected_occlusion(visible_from(place), yarn.occlusion_lean, distance, facing);
+}
+
 // What other yarns leave open of the sky, between the piece's two inner control points.
 vec4 open_sky(Strand strand) {
     uint first = segments[strand.piece].first_point + 1u;
@@ -176,15 +184,14 @@ vec3 ambient(Strand strand, vec3 to_eye, float visibility) {
     if (SELF_SHADOW && PHYSICAL && SPECULAR) {
         behind = through_yarn(strand, -to_eye);
     }
-    vec2 place = mix(strand.near_place, strand.far_place, strand.far_share);
-    vec3 outward = place.x * strand.ply_normal + place.y * strand.ply_binormal;
     if (DISTANCE_OCCLUSION || TEXTURE_OCCLUSION) {
-        float distance = length(place);
-        float facing = dot(strand.toward, outward) / max(distance, 1e-6);
-        visibility = reflected_occlusion(visibility, yarn.occlusion_lean, distance, facing);
+        visibility = mix(reflected_from(strand, strand.near_place), reflected_from(strand, strand.far_place),
+                         strand.far_share);
     }
     if (YARN_OCCLUSION) {
         vec4 sky = open_sky(strand);
+        vec2 place = mix(strand.near_place, strand.far_place, strand.far_share);
+        vec3 outward = place.x * strand.ply_normal + place.y * strand.ply_binormal;
         visibility *= sky_toward(sky, sky_gathered(strand.toward, outward));
         behind *= sky_toward(sky, -to_eye);
     }
