@@ -8,6 +8,7 @@ use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use worsted::error::Error;
+use worsted::precompute::optical_depth::CrossSection;
 use worsted::precompute::self_shadow::{SelfShadowSize, bake_self_shadow};
 use worsted::precompute::self_shadow::{self_shadow_depth, self_shadow_light, self_shadow_place};
 use worsted::vulkan::Device;
@@ -26,6 +27,7 @@ const INK: [u8; 3] = [205, 205, 200];
 /// Those of the file system.
 pub fn draw(_device: &Arc<Device>) -> Result<(), Error> {
     let yarn = preset(YARN)?;
+    let cross_section = CrossSection::new(&yarn);
     let table = bake_self_shadow(&yarn, SelfShadowSize::default());
     let (largest, extinction) = (table.largest(), extinction_per_mm(&yarn) * yarn.outer_radius_mm());
     let captions = [
@@ -44,7 +46,7 @@ pub fn draw(_device: &Arc<Device>) -> Result<(), Error> {
             self_shadow_depth(&table, self_shadow_place(position, toward, yarn.ply_count, table.size))
         };
         let pictures = [
-            section(SIZE, |place| [density(&yarn, from_picture.rotate(place)) / WHITE_DENSITY; 3]),
+            section(SIZE, |place| [density(&cross_section, from_picture.rotate(place)) / WHITE_DENSITY; 3]),
             section(SIZE, |place| [depth(place) / largest; 3]),
             section(SIZE, |place| [self_shadow_light(depth(place), extinction, 1.0); 3]),
         ];

@@ -12,6 +12,7 @@ use worsted::precompute::occlusion_fit::{distance_occlusion, fit_distance_occlus
 use worsted::precompute::occlusion_table::{
     OCCLUSION_ACROSS, bake_occlusion_table, occlusion_place, texture_occlusion,
 };
+use worsted::precompute::optical_depth::CrossSection;
 use worsted::vulkan::Device;
 use worsted::yarn::density::extinction_per_mm;
 use worsted::yarn::params::YarnParams;
@@ -51,12 +52,13 @@ pub fn draw(_device: &Arc<Device>) -> Result<(), Error> {
 fn pictures(yarn: &YarnParams) -> ([Picture; 4], String) {
     let extinction = extinction_per_mm(yarn);
     let table = bake_occlusion_table(yarn, extinction, OCCLUSION_ACROSS);
+    let cross_section = CrossSection::new(yarn);
     let cubic = fit_distance_occlusion(yarn, extinction);
     let by_place = |place: DVec2| texture_occlusion(&table, occlusion_place(place, table.across));
     let by_distance = |place: DVec2| distance_occlusion(cubic, place.length());
     let differs = |place: DVec2| by_distance(place) - by_place(place);
     let pictures = [
-        section(SIZE, |place| [density(yarn, place) / WHITE_DENSITY; 3]),
+        section(SIZE, |place| [density(&cross_section, place) / WHITE_DENSITY; 3]),
         section(SIZE, |place| [by_place(place); 3]),
         section(SIZE, |place| [by_distance(place); 3]),
         section(SIZE, |place| signed(4.0 * differs(place))),

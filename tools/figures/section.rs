@@ -3,11 +3,10 @@
 use glam::DVec2;
 use std::f64::consts::TAU;
 use worsted::frame::Picture;
-use worsted::yarn::density::fiber_density;
-use worsted::yarn::params::YarnParams;
+use worsted::precompute::optical_depth::CrossSection;
 
-/// Density that is shown white: that of two plies where both are densest.
-pub const WHITE_DENSITY: f64 = 2.0;
+/// Density that is shown white.
+pub const WHITE_DENSITY: f64 = 4.0;
 
 /// A square of `pixels` around the outer circle; `color` is given the place in outer radii, x rightward and y
 /// upward, and gives bytes' shares of 255.
@@ -21,14 +20,15 @@ pub fn section(pixels: u32, color: impl Fn(DVec2) -> [f64; 3]) -> Picture {
     Picture { size: [pixels; 2], linear: Vec::new(), display: (0..pixels * pixels).map(pixel).collect() }
 }
 
-/// Sum of all plies' densities p(R) at `position` in outer radii, ply 0 along x.
-pub fn density(yarn: &YarnParams, position: DVec2) -> f64 {
+/// Sum of all plies' densities, averaged over migration, at `position` in outer radii, ply 0 along x.
+pub fn density(section: &CrossSection<'_>, position: DVec2) -> f64 {
+    let yarn = section.yarn;
     let position_mm = position * yarn.outer_radius_mm();
     let of_ply = |ply: u32| {
         let turn = DVec2::from_angle(-TAU * f64::from(ply) / f64::from(yarn.ply_count));
         let place = turn.rotate(position_mm) - DVec2::new(yarn.ply_offset_mm(), 0.0);
         let radius = (place / DVec2::new(yarn.ellipse_short_mm, yarn.ellipse_long_mm)).length();
-        fiber_density(radius, yarn.density_beta, yarn.density_epsilon)
+        section.density.at(radius)
     };
     (0..yarn.ply_count).map(of_ply).sum()
 }
