@@ -227,9 +227,15 @@ pub fn read_hdr(path: &Path) -> Result<LinearImage, FileError> {
     Ok(image)
 }
 
-/// A decoder's complaint as one line.
+/// Longest complaint of a decoder that is passed on, in characters: some repeat what they read.
+const LONGEST_COMPLAINT: usize = 300;
+
+/// A decoder's complaint as one line, without the file's own control characters that it may repeat.
 pub(super) fn refused(path: &Path, doing: &str, error: &dyn std::fmt::Display) -> FileError {
-    let message = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+    let shown = words.chars().take(LONGEST_COMPLAINT);
+    let message: String =
+        shown.map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect();
     FileError::new(path, Place::File, format!("cannot {doing} the picture: {message}"))
 }
 
