@@ -1,6 +1,7 @@
 //! The frame, top to bottom: what is built for a scene, and what one picture runs.
 
 mod bake;
+mod cloth;
 pub mod lighting;
 mod plan;
 pub mod sampling;
@@ -10,7 +11,6 @@ pub mod upload;
 
 use crate::gpu_types::{Statistics, TUBE_CORNERS};
 use crate::graph::{Graph, Pass};
-use crate::math::bounds::Bounds;
 use crate::passes::fibers::{FibersPass, FrameBuffers};
 use crate::passes::resolve::ResolvePass;
 use crate::passes::shadow_map::{ShadowMap, ShadowMapPass};
@@ -26,7 +26,8 @@ use crate::shaders::ShaderSet;
 use crate::vulkan::{Buffer, Device, ImageState, MemoryKind, VulkanError, vk};
 use crate::yarn::table::fiber_table;
 use bake::Bakes;
-use lighting::{LightRoom, cloth_bounds};
+use cloth::Cloth;
+use lighting::{LightRoom, light_scale};
 use sampling::Sampling;
 use stats::Stats;
 use std::collections::{BTreeMap, HashMap};
@@ -70,7 +71,7 @@ pub struct Renderer {
     shadow_views: Buffer,
     /// What the pipelines, the buffers and the shadow map have room for.
     light_room: LightRoom,
-    cloth: Bounds,
+    cloth: Cloth,
     shadow_map: ShadowMapPass,
     fibers: FibersPass,
     resolve: ResolvePass,
@@ -154,7 +155,7 @@ impl Renderer {
         let tonemap = TonemapPass::new(device, &targets, &scene.file.display)?;
         let device = device.clone();
         let graph = Graph::default();
-        let cloth = cloth_bounds(&scene);
+        let cloth = Cloth::new(&scene);
         Ok(Self {
             device,
             scene,
@@ -227,33 +228,36 @@ impl Renderer {
         if self.request.statistics {
             self.statistics.replace(&[Statistics::default()])?;
         }
-        self.lights.write(0, &self.light_room.lights(&self.scene.file.light(), self.scene.origin_mm))?;
-        let views = self.light_room.views(&self.scene, &camera, self.cloth);
+        let light_scale = light_scale(&self.scene, &self.environment, self.cloth.near(&camera, None));
+        let lights = self.light_room.lights(&self.scene.file.light(), self.scene.origin_mm, light_scale);
+        self.lights.write(0, &lights)?;
+        let views = self.light_room.views(&self.scene, &camera, &self.cloth);
         self.shadow_views.write(0, &views)?;
         if let Some(pass) = self.shadow_map.pass(views.len() as u32) {
             let timings = self.request.profile.then_some(&mut passes);
             taken += run(&mut self.graph, &self.device, &[pass], timings)?;
         }
         for index in 0..frames {
-            let frame = upload::frame(&self.scene, &camera, &self.environment, &self.request, index);
+            let light = (&self.environment, light_scale);
+            let frame = upload::frame(&self.scene, &camera, light, &self.request, index);
             self.frame.write(0, &[frame])?;
             let timings = self.request.profile.then_some(&mut passes);
-            taken += self.draw_frame(index, frames, timings, progress)?;
+            taken += self.draw_frame((index, frames), light_scale, timings, progress)?;
             if index == 0 && self.request.statistics {
                 self.stats.set_counts(self.statistics.read_staged()?);
             }
         }
         self.stats.add_frame(taken, passes);
         let picture = self.read_picture()?;
-        self.stats.inspect(&picture.linear);
+        self.stats.inspect(&picture.linear, light_scale);
         Ok(picture)
     }
 
     /// Draws jittered frame `index` of `count` and adds it to the picture.
     fn draw_frame(
         &mut self,
-        index: usize,
-        count: usize,
+        (index, count): (usize, usize),
+        light_scale: f64,
         mut timings: Option<&mut HashMap<&'static str, Duration>>,
         progress: &dyn Fn(f64),
     ) -> Result<Duration, VulkanError> {
@@ -264,7 +268,7 @@ impl Renderer {
             taken += run(&mut self.graph, &self.device, &[fibers], timings.as_deref_mut())?;
             progress((index as f64 + (part + 1) as f64 / parts as f64) / count as f64);
         }
-        let mut finish = vec![self.resolve.pass(&self.targets, index, count)];
+        let mut finish = vec![self.resolve.pass(&self.targets, (index, count), light_scale)];
         if index + 1 == count {
             finish.push(self.tonemap.pass(&self.targets));
         }

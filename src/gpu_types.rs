@@ -20,7 +20,7 @@ pub const RADIANCE_MAX: f32 = 65_504.0;
 pub struct ControlPoint {
     /// In mm, relative to the scene's origin.
     pub position: [f32; 3],
-    /// The knot's normal as two 16-bit snorms: [`crate::math::frame::octahedral_from_unit`].
+    /// The knot's normal as two 16-bit snorms: [`crate::math::frame::octahedral_from_normal`].
     pub normal_octahedral: u32,
 }
 

@@ -16,6 +16,7 @@ use worsted::knit::params::KnitParams;
 use worsted::knit::tube::tube;
 use worsted::scene::Scene;
 use worsted::scene::features::Features;
+use worsted::stress::placed::{Query, ask_device};
 use worsted::vulkan::DeviceChoice;
 use worsted::yarn::fetch::FiberField;
 use worsted::yarn::fiber::yarn_point;
@@ -25,10 +26,7 @@ use worsted::yarn::strand::{Piece, Strands};
 
 #[path = "support/device.rs"]
 mod device;
-#[path = "support/fiber_points.rs"]
-mod fiber_points;
 use device::shared;
-use fiber_points::{Query, ask_device};
 
 /// Yarns of one, two and three plies, in both senses, with few and many periods to a turn; a migration of
 /// silk1 and of mohair holds several periods.
@@ -160,7 +158,8 @@ fn compare_device(scene: &Scene) -> Result<Worst, String> {
     let sampling = Sampling::new(1).expect("one sample is allowed");
     let request = Request { size: [64, 48], sampling, statistics: false, profile: false };
     let renderer = Renderer::new(shared(DeviceChoice::Auto), scene.clone(), request).expect("a renderer");
-    let answers = ask_device(&renderer, &features, &queries).expect("answers without validation errors");
+    let answers = ask_device(shared(DeviceChoice::Auto), &renderer, &features, &queries)
+        .expect("answers without validation errors");
     assert_eq!(answers.len(), queries.len());
     let kinds = [Kind::Migration, Kind::Loop, Kind::Hair];
     let sides = answers.chunks_exact(2).map(|pair| {

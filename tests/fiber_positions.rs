@@ -8,6 +8,7 @@ use worsted::frame::{Renderer, Request};
 use worsted::math::rng::Rng;
 use worsted::scene::Scene;
 use worsted::scene::features::Features;
+use worsted::stress::placed::{Answer, Query, ask_device};
 use worsted::vulkan::DeviceChoice;
 use worsted::yarn::fetch::FiberField;
 use worsted::yarn::fiber::FiberPoint;
@@ -15,10 +16,7 @@ use worsted::yarn::period::Kind;
 
 #[path = "support/device.rs"]
 mod device;
-#[path = "support/fiber_points.rs"]
-mod fiber_points;
 use device::shared;
-use fiber_points::{Answer, Query, ask_device};
 
 const SIZE: [u32; 2] = [1280, 960];
 const QUERIES: u64 = 10_000;
@@ -123,7 +121,8 @@ impl Asked {
         let renderer = Renderer::new(shared(DeviceChoice::Auto), scene.clone(), request).expect("a renderer");
         let clip_from_world = renderer.camera().clip_from_world(SIZE, DVec2::ZERO);
         let queries = queries(&scene);
-        let answers = ask_device(&renderer, &features, &queries).expect("answers without validation errors");
+        let answers = ask_device(shared(DeviceChoice::Auto), &renderer, &features, &queries)
+            .expect("answers without validation errors");
         assert_eq!(answers.len() as u64, QUERIES);
         Self { scene, queries, answers, clip_from_world }
     }

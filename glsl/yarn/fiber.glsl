@@ -58,10 +58,13 @@ vec3 piece_tangent(vec3 b[4], vec3 derivative) {
     return direction_or(derivative, direction_or(b[3] - b[0], direction_or(b[2] - b[1], vec3(1.0, 0.0, 0.0))));
 }
 
-// The unit `normal`, perpendicular to `from`, turned by the smallest rotation that takes the unit
-// tangent `from` to `to`, times 1 + from . to: no division, so no pole where the yarn doubles back.
+// The unit `normal` turned by the smallest rotation that takes the unit tangent `from` to `to`, times
+// 1 + from . to: no division, so no pole where the yarn doubles back. What of it lies along `from` comes to lie along
+// `to`: packed normals are not quite perpendicular.
 vec3 turned_normal(vec3 from, vec3 to, vec3 normal) {
-    return (1.0 + dot(from, to)) * normal - dot(normal, to) * (from + to);
+    float more = 1.0 + dot(from, to);
+    float along = dot(normal, from);
+    return more * (normal + 2.0 * along * to) - (along + dot(normal, to)) * (from + to);
 }
 
 // Centre and frame at t of the Bezier piece `b` whose knots carry the given unit normals. Both

@@ -61,6 +61,9 @@ pub enum Command {
     /// Evaluate one function for every line of standard input: a JSON object in, one out.
     #[command(after_long_help = probe::described())]
     Probe(Probe),
+    /// Sweep every parameter to the ends of its domain and past them, the device against f64: a table of worst
+    /// errors, and exit code 1 where one is beyond what is allowed.
+    Stress(Stress),
 }
 
 /// A scene and what is changed about it.
@@ -299,4 +302,18 @@ pub enum Backend {
     Device,
     /// Its f64 twin, without tables.
     F64,
+}
+
+/// `worsted stress`.
+#[derive(Debug, ClapArgs)]
+pub struct Stress {
+    /// Try less: under a minute, for every change.
+    #[arg(long)]
+    pub quick: bool,
+    /// Write the table as Markdown; printed when not given.
+    #[arg(long, value_name = "FILE")]
+    pub table: Option<PathBuf>,
+    /// Write all figures as JSON; `-` for standard output, in place of the table.
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
 }

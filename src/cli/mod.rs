@@ -12,6 +12,7 @@ mod probe;
 mod progress;
 mod reference;
 mod render;
+mod stress;
 
 use crate::error::Error;
 use crate::vulkan::{Device, DeviceOptions, Validation};
@@ -35,6 +36,7 @@ pub fn run(args: &Args) -> Result<(), Error> {
         Command::Info(info) => info::run(info),
         Command::Doctor => doctor::run(&args.common),
         Command::Probe(probe) => probe::run(probe, &args.common),
+        Command::Stress(stress) => stress::run(stress, &args.common),
     }
 }
 

@@ -1,13 +1,17 @@
 //! Lights and what they see, in the device's words.
 
+use super::cloth::Cloth;
 use crate::gpu_types::{Light, ShadowView};
-use crate::math::bounds::{Bounds, bounds};
+use crate::math::bounds::Bounds;
+use crate::precompute::environment::Environment;
 use crate::scene::Scene;
 use crate::scene::camera::Camera;
+use crate::scene::file::DebugView;
 use crate::scene::light::{self, LightTable};
 use crate::scene::shadow::{self, shadow_views};
 use crate::vulkan::{Buffer, Device, MemoryKind, VulkanError, vk};
 use glam::{DMat4, DVec3};
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// What the pipelines and buffers of a scene have room for.
@@ -60,8 +64,8 @@ impl LightRoom {
         ])
     }
 
-    /// The lights that shine, as many as there is room for: the rest are dark.
-    pub fn lights(&self, tables: &[LightTable], origin_mm: DVec3) -> Vec<Light> {
+    /// The lights that shine, as many as there is room for, each `scale` times as strong: the rest are dark.
+    pub fn lights(&self, tables: &[LightTable], origin_mm: DVec3, scale: f64) -> Vec<Light> {
         let mut next_view = 0;
         let light = |table: &LightTable| {
             let light = light::Light::new(table, origin_mm);
@@ -72,7 +76,7 @@ impl LightRoom {
                 is_local: light.position.is_some().into(),
                 toward: light.toward.as_vec3().to_array(),
                 cone_scale: light.cone_scale as f32,
-                strength: light.strength.as_vec3().to_array(),
+                strength: (scale * light.strength).as_vec3().to_array(),
                 cone_offset: light.cone_offset as f32,
                 shadow_view: next_view - views,
                 shadow_view_count: views,
@@ -86,7 +90,7 @@ impl LightRoom {
     }
 
     /// What the lights see of the cloth that the camera sees, in the order of their views.
-    pub fn views(&self, scene: &Scene, camera: &Camera, cloth: Bounds) -> Vec<ShadowView> {
+    pub fn views(&self, scene: &Scene, camera: &Camera, cloth: &Cloth) -> Vec<ShadowView> {
         if self.views == 0 {
             return Vec::new();
         }
@@ -94,10 +98,49 @@ impl LightRoom {
         let lights = scene.file.light();
         let shining = lights.iter().filter(|light| light.shines());
         shining
-            .flat_map(|light| shadow_views(light, scene.origin_mm, camera, cloth, resolution))
+            .flat_map(|light| {
+                let near = cloth.near(camera, Some(light));
+                shadow_views(light, scene.origin_mm, camera, near, resolution)
+            })
             .map(|view| gpu_view(&view))
             .collect()
     }
+}
+
+/// Brightest light between which half floats hold what yarn sends back as they are: all of its highlights, and a
+/// thousandth of its brightest.
+const HELD_AS_IT_IS: std::ops::RangeInclusive<f64> = 0.5..=32.0;
+
+/// What light is multiplied with before frames hold it as half floats, which have no more digits below 6e-5 and end
+/// at 65504, and divided by when frames are added up: a power of two that brings the brightest light near 1, or 1
+/// where it needs none and in views that show no light.
+pub fn light_scale(scene: &Scene, environment: &Environment, cloth: Bounds) -> f64 {
+    let brightest = brightest(scene, environment, cloth);
+    let shaded = scene.file.debug.view == DebugView::Shaded;
+    if !shaded || brightest <= 0.0 || HELD_AS_IT_IS.contains(&brightest) {
+        return 1.0;
+    }
+    // Within f32's own range, whatever a scene says.
+    (-brightest.log2().round()).clamp(-60.0, 60.0).exp2()
+}
+
+/// The largest irradiance on the cloth's box or in its middle, of all lights together.
+fn brightest(scene: &Scene, environment: &Environment, cloth: Bounds) -> f64 {
+    let (low, high) = cloth;
+    let corner = |i: u32| {
+        let share = DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));
+        low + share * (high - low)
+    };
+    let places: Vec<DVec3> = (0..8).map(corner).chain([0.5 * (low + high)]).collect();
+    let tables = scene.file.light();
+    let of_light = |table: &LightTable| {
+        let light = light::Light::new(table, scene.origin_mm);
+        let at = |place: &DVec3| light::light_at(&light, *place).irradiance.max_element();
+        places.iter().map(at).filter(|irradiance| irradiance.is_finite()).fold(0.0, f64::max)
+    };
+    let lights: f64 = tables.iter().filter(|table| table.shines()).map(of_light).sum();
+    let from_everywhere = scene.file.ambient.radiance().max_element().max(environment[0].max_element());
+    lights + PI * from_everywhere
 }
 
 fn gpu_view(view: &shadow::ShadowView) -> ShadowView {
@@ -109,13 +152,4 @@ fn gpu_view(view: &shadow::ShadowView) -> ShadowView {
         texel: view.texel as f32,
         padding: [0; 3],
     }
-}
-
-/// The box around all yarns of a scene, their thickness included, relative to its origin.
-pub fn cloth_bounds(scene: &Scene) -> Bounds {
-    bounds(scene.fabrics.iter().flat_map(|fabric| {
-        let radius = DVec3::splat(fabric.yarn.outer_radius_mm());
-        let near = move |p: DVec3| [p - scene.origin_mm - radius, p - scene.origin_mm + radius];
-        fabric.hull_points().flat_map(near)
-    }))
 }

@@ -133,10 +133,11 @@ impl Stats {
         }
     }
 
-    /// Counts what must not be in a picture's linear pixels.
-    pub fn inspect(&mut self, pixels: &[[f32; 4]]) {
+    /// Counts what must not be in a picture's linear pixels, whose light was drawn `light_scale` times as strong.
+    pub fn inspect(&mut self, pixels: &[[f32; 4]], light_scale: f64) {
+        let most = (f64::from(RADIANCE_MAX) / light_scale) as f32;
         let bad = |p: &&[f32; 4]| !p.iter().all(|c| c.is_finite());
-        let clamped = |p: &&[f32; 4]| p.iter().any(|c| !c.is_nan() && !(0.0..RADIANCE_MAX).contains(c));
+        let clamped = |p: &&[f32; 4]| p.iter().any(|c| !c.is_nan() && !(0.0..most).contains(c));
         self.nan_pixels = pixels.iter().filter(bad).count() as u64;
         self.clamped_pixels = pixels.iter().filter(clamped).count() as u64;
     }
@@ -162,8 +163,11 @@ mod tests {
             [1.0; 4],
         ];
         let mut stats = Stats::for_tests();
-        stats.inspect(&pixels);
+        stats.inspect(&pixels, 1.0);
         assert_eq!((stats.nan_pixels, stats.clamped_pixels), (2, 3));
+        // Drawn an eighth as strong, eight times as much fits.
+        stats.inspect(&pixels, 0.125);
+        assert_eq!((stats.nan_pixels, stats.clamped_pixels), (2, 2));
     }
 
     #[test]

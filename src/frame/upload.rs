@@ -4,7 +4,7 @@ use super::Request;
 use super::bake::Bakes;
 use super::textures;
 use crate::gpu_types::{ControlPoint, Fiber, Frame, LENGTH_STRIPE, Segment, Yarn};
-use crate::math::frame::octahedral_from_unit;
+use crate::math::frame::octahedral_from_normal;
 use crate::passes::fibers::FabricBuffers;
 use crate::precompute::environment::{Environment, project_environment};
 use crate::precompute::scattering_table::azimuthal_constants;
@@ -27,11 +27,12 @@ use std::sync::Arc;
 /// their digits.
 pub fn control_points(fabric: &Fabric, origin_mm: DVec3) -> Vec<ControlPoint> {
     let strands = &fabric.strands;
-    let point = |(position, normal): (&DVec3, &DVec3)| ControlPoint {
+    let tangents = strands.knot_tangents();
+    let point = |((position, normal), tangent): ((&DVec3, &DVec3), &DVec3)| ControlPoint {
         position: (*position - origin_mm).as_vec3().to_array(),
-        normal_octahedral: octahedral_from_unit(*normal),
+        normal_octahedral: octahedral_from_normal(*normal, *tangent),
     };
-    strands.points.iter().zip(&strands.normals).map(point).collect()
+    strands.points.iter().zip(&strands.normals).zip(&tangents).map(point).collect()
 }
 
 /// One piece with its turns reduced in f64.
@@ -149,11 +150,11 @@ pub fn environment(scene: &Scene) -> Environment {
     scene.environment.as_deref().map_or([DVec3::ZERO; 9], project)
 }
 
-/// The camera and ambient light of one jittered frame.
+/// The camera and ambient light of one jittered frame; `light_scale` is [`super::lighting::light_scale`]'s.
 pub fn frame(
     scene: &Scene,
     camera: &Camera,
-    environment: &Environment,
+    (environment, light_scale): (&Environment, f64),
     request: &Request,
     index: usize,
 ) -> Frame {
@@ -165,8 +166,8 @@ pub fn frame(
         clip_from_world: columns(camera.clip_from_world(size, jitter)),
         eye_world: camera.eye_world.extend(1.0).as_vec4().to_array(),
         frustum_world: camera.frustum_world(size).map(|plane| plane.as_vec4().to_array()),
-        ambient_radiance: rgb(scene.file.ambient.radiance().to_array()),
-        environment: environment.map(|rgb| rgb.extend(0.0).as_vec4().to_array()),
+        ambient_radiance: rgb((light_scale * scene.file.ambient.radiance()).to_array()),
+        environment: environment.map(|rgb| (light_scale * rgb).extend(0.0).as_vec4().to_array()),
         tolerance_px: quality.subdivision_tolerance_px as f32,
         near_mm: camera.near_mm as f32,
         pixel_tangent: camera.pixel_tangent(size) as f32,

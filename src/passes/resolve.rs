@@ -12,6 +12,7 @@ use std::sync::Arc;
 #[repr(C)]
 struct Constants {
     weight: f32,
+    light_weight: f32,
     first: u32,
 }
 
@@ -32,9 +33,17 @@ impl ResolvePass {
         Ok(Self { kernel })
     }
 
-    /// Adds frame `index` of `count` equally weighted ones; the first replaces what was there.
-    pub fn pass<'a>(&'a self, targets: &'a Targets, index: usize, count: usize) -> Pass<'a> {
-        let constants = Constants { weight: 1.0 / count as f32, first: (index == 0).into() };
+    /// Adds frame `index` of `count` equally weighted ones, whose light is `light_scale` times as strong as it
+    /// should be; the first replaces what was there.
+    pub fn pass<'a>(
+        &'a self,
+        targets: &'a Targets,
+        (index, count): (usize, usize),
+        light_scale: f64,
+    ) -> Pass<'a> {
+        let weight = 1.0 / count as f32;
+        let light_weight = weight / light_scale as f32;
+        let constants = Constants { weight, light_weight, first: (index == 0).into() };
         Pass {
             name: "resolve",
             uses: vec![

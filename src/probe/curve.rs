@@ -5,7 +5,7 @@ use super::fields::{Domain, LENGTH, PHI, PIXELS, POINTS, SHARE, TWIST, VECTOR, V
 use super::function::{Function, OnDevice, Shape, any, as_given, words};
 use super::yarn::bare_yarn;
 use crate::math::curve::{Basis, bezier_from_basis, bezier_point};
-use crate::math::frame::{direction_or, normal_perpendicular_to, octahedral_from_unit};
+use crate::math::frame::{direction_or, normal_perpendicular_to, octahedral_from_normal};
 use crate::yarn::detail::lod_factor;
 use crate::yarn::fiber::{self, PieceTurns, Turns, piece_tangent, turned_normal, twist_at, yarn_point};
 use crate::yarn::migration::migration_radius;
@@ -196,10 +196,12 @@ impl FiberQuery {
         let b = self.piece.bezier();
         let tangent = piece_tangent(&b, bezier_point(&b, self.t).derivative);
         let normal = normal_perpendicular_to(tangent, direction_or(self.reference, DVec3::X));
-        [b[1] - b[0], b[3] - b[2]].map(|leg| {
-            let knot = piece_tangent(&b, leg);
-            direction_or(turned_normal(tangent, knot, normal), normal)
-        })
+        self.knot_tangents().map(|knot| direction_or(turned_normal(tangent, knot, normal), normal))
+    }
+
+    fn knot_tangents(&self) -> [DVec3; 2] {
+        let b = self.piece.bezier();
+        [b[1] - b[0], b[3] - b[2]].map(|leg| piece_tangent(&b, leg))
     }
 
     fn exact(&self) -> Vec<f64> {
@@ -212,7 +214,8 @@ impl FiberQuery {
 
     fn words(&self) -> Vec<u32> {
         let mut row = self.piece.words();
-        row.extend(self.knot_normals().map(octahedral_from_unit));
+        let knots = self.knot_normals().into_iter().zip(self.knot_tangents());
+        row.extend(knots.map(|(normal, tangent)| octahedral_from_normal(normal, tangent)));
         row.extend(words([self.t]));
         let PieceTurns { ply, fiber, migration } = self.turns;
         for turns in [ply, fiber, migration] {

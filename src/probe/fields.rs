@@ -11,7 +11,7 @@ const FAR: f64 = 1e7;
 /// Largest azimuth or phase in radians, either sign.
 const TURNED: f64 = 1e3;
 /// Widest lobe in degrees.
-const WIDEST_LOBE_DEG: f64 = 89.0;
+pub const WIDEST_LOBE_DEG: f64 = 89.0;
 
 /// One field of a query.
 #[derive(Clone, Copy, Debug)]
@@ -93,7 +93,7 @@ impl fmt::Display for Domain {
 }
 
 /// What the yarn's own table allows; nothing where it has no such parameter.
-fn allowed(key: &str) -> Allowed {
+pub fn allowed(key: &str) -> Allowed {
     find(key).map_or(Allowed::Flag, |parameter| parameter.allowed)
 }
 

@@ -96,6 +96,13 @@ pub fn find(name: &str) -> Option<&'static Function> {
 }
 
 impl Function {
+    /// Where the numbers of a field begin among those of a query, and how many they are; `None` without such a field.
+    pub fn place_of(&self, path: &str) -> Option<std::ops::Range<usize>> {
+        let index = self.fields.iter().position(|field| field.path == path)?;
+        let start = self.fields[..index].iter().map(|field| field.domain.numbers()).sum();
+        Some(start..start + self.fields[index].domain.numbers())
+    }
+
     /// Numbers that the function gives.
     pub fn result_numbers(&self) -> usize {
         self.results.iter().map(|(_, shape)| shape.numbers()).sum()

@@ -3,7 +3,7 @@
 use super::entries::Entries;
 use super::fields::Values;
 use super::function::{Function, Table, TableOf};
-use crate::shaders;
+use crate::shaders::ShaderSet;
 use crate::vulkan::{
     Access, Binding, Buffer, ComputePipelineInfo, DescriptorLayout, DescriptorSet, Device, Image, ImageInfo,
     ImageState, MemoryKind, Pipeline, Resource, Sampler, SamplerInfo, SpecializationConstants, VulkanError,
@@ -45,6 +45,19 @@ impl Kernel {
     /// # Errors
     /// Those of the device.
     pub fn new(device: &Arc<Device>, function: &'static Function) -> Result<Self, VulkanError> {
+        Self::with_shaders(device, function, &ShaderSet::default())
+    }
+
+    /// The same with other shaders.
+    ///
+    /// # Errors
+    /// Those of the device.
+    #[doc(hidden)]
+    pub fn with_shaders(
+        device: &Arc<Device>,
+        function: &'static Function,
+        shaders: &ShaderSet,
+    ) -> Result<Self, VulkanError> {
         let binding = |binding, kind| Binding { binding, kind, stages: vk::ShaderStageFlags::COMPUTE };
         let texture = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
         let buffer = vk::DescriptorType::STORAGE_BUFFER;
@@ -54,7 +67,7 @@ impl Kernel {
         let missing = || VulkanError::misuse(format!("no embedded shader `{}`", function.device.kernel));
         let info = ComputePipelineInfo {
             name: function.name,
-            spirv: shaders::get(function.device.kernel).ok_or_else(missing)?,
+            spirv: shaders.get(function.device.kernel).ok_or_else(missing)?,
             constants: &SpecializationConstants::new(),
             set_layouts: &[&layout],
             push_constant_bytes: size_of::<Shape>() as u32,

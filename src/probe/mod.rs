@@ -18,4 +18,5 @@ mod yarn;
 
 pub use function::{FUNCTIONS, Function, described, find};
 pub use kernel::Kernel;
+pub use line::parse;
 pub use stream::{Tally, probe};

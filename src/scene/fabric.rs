@@ -15,7 +15,7 @@ use crate::yarn::contact::estimate_contact_radius;
 use crate::yarn::params::YarnParams;
 #[cfg(test)]
 use crate::yarn::presets;
-use crate::yarn::strand::{Strands, strands};
+use crate::yarn::strand::{MOST_MIGRATIONS, Strands, strands};
 use glam::DVec3;
 use std::path::Path;
 
@@ -81,6 +81,7 @@ impl Fabric {
         }
         let curves = world_curves(&loaded, mm_per_unit);
         let strands = strands(&curves, loaded.curves.basis, &yarn, file.seed);
+        check_turns(&strands).map_err(|message| value(format!("{}: {message}", table.model)))?;
         Ok(Self { name: table.model.clone(), yarn, fiber, strands, mm_per_unit, notes })
     }
 
@@ -98,6 +99,33 @@ impl Fabric {
             strands(&[Curve { points, closed: false }], crate::math::curve::Basis::CatmullRom, &yarn, 0);
         let fiber = fiber_presets::fiber(fiber_presets::DEFAULT_FIBER).unwrap();
         Self { name: "test".into(), yarn, fiber, strands, mm_per_unit: 1.0, notes: Vec::new() }
+    }
+}
+
+/// Most turns of plies, fibers or migration over one piece of yarn: f32 then still has a twentieth of a radian.
+const MOST_TURNS: f64 = 1e5;
+
+/// Whether the device can count the turns of every piece, and the periods of every closed curve.
+fn check_turns(strands: &Strands) -> Result<(), String> {
+    for piece in &strands.pieces {
+        let turns = [piece.turns.ply, piece.turns.fiber, piece.turns.migration];
+        let counts = turns.map(|turns| turns.delta.abs());
+        // Written so that what is no number is refused.
+        let counted = counts.iter().all(|count| *count <= MOST_TURNS);
+        if !counted {
+            let (curve, length) = (piece.curve, piece.length_mm);
+            let most = counts.into_iter().fold(0.0, f64::max);
+            return Err(format!(
+                "curve {curve}: expected at most {MOST_TURNS} turns over one piece, found {most:.0} in {length} mm"
+            ));
+        }
+    }
+    match strands.period_counts.iter().position(|count| *count > MOST_MIGRATIONS) {
+        None => Ok(()),
+        Some(curve) => Err(format!(
+            "curve {curve}: expected a closed yarn of at most {MOST_MIGRATIONS} migrations of its fibers, found {}",
+            strands.period_counts[curve]
+        )),
     }
 }
 
@@ -134,4 +162,29 @@ fn world_curves(loaded: &Loaded, mm_per_unit: f64) -> Vec<Curve> {
         closed: curve.closed,
     };
     loaded.curves.curves.iter().map(place).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::curve::Basis;
+
+    fn checked(closed: bool, pitch_mm: f64, step_mm: f64) -> Result<(), String> {
+        let mut yarn = presets::yarn(presets::DEFAULT_YARN).unwrap();
+        (yarn.fiber_pitch_mm, yarn.migration_rate) = (Some(pitch_mm), 1.0);
+        let points = [DVec3::ZERO, DVec3::X, DVec3::ONE, DVec3::Y].map(|p| p * step_mm).to_vec();
+        check_turns(&strands(&[Curve { points, closed }], Basis::CatmullRom, &yarn, 0))
+    }
+
+    #[test]
+    fn turns_that_the_device_cannot_count_are_refused() {
+        assert_eq!(checked(false, 0.01, 500.0), Ok(()));
+        let error = checked(false, 0.01, 2000.0).unwrap_err();
+        assert!(
+            error.starts_with("curve 0: expected at most 100000 turns over one piece, found 2"),
+            "{error}"
+        );
+        assert!(checked(false, 1.0, f64::NAN).is_err());
+        assert!(checked(false, 1.0, 1e300).is_err());
+    }
 }

@@ -1,11 +1,12 @@
 //! From a path to a scene.
 
 use super::fiber_table::check_fibers;
-use super::file::{FabricTable, SceneFile};
+use super::file::{CameraTable, FabricTable, SceneFile};
 use super::keys::{KeyError, line_at};
 use super::light::{AmbientTable, check_lights};
 use super::yarn_table::check_yarns;
 use super::{Fabric, Scene, SceneError, overrides};
+use crate::io::curves::CurveSet;
 use crate::io::environment::read_environment;
 use crate::io::error::{FileError, Place};
 use crate::io::picture::LinearImage;
@@ -115,7 +116,7 @@ impl Scene {
             .iter()
             .map(|table| Fabric::load(&file, table, &folder, &name))
             .collect::<Result<Vec<_>, _>>()?;
-        let origin_mm = center(&fabrics);
+        let origin_mm = origin(&file.camera, &fabrics);
         let environment = load_environment(&file.ambient, &folder)?;
         Ok(Self { file, fabrics, origin_mm, environment })
     }
@@ -125,21 +126,35 @@ impl Scene {
     ///
     /// # Errors
     /// Values out of range; fabric that cannot be knitted.
-    pub fn stockinette(mut file: SceneFile, knit: &KnitParams) -> Result<Self, SceneError> {
-        let name = "generated stockinette";
+    pub fn stockinette(file: SceneFile, knit: &KnitParams) -> Result<Self, SceneError> {
+        Self::of_curves(file, stockinette(knit)?, "generated stockinette")
+    }
+
+    /// A scene around curves as they stand, in place of whatever fabric the file names; 1 unit is 1 mm. An
+    /// environment's path is relative to the working folder.
+    ///
+    /// # Errors
+    /// Values out of range.
+    pub fn of_curves(mut file: SceneFile, curves: CurveSet, name: &str) -> Result<Self, SceneError> {
         let value = |(error, _): (KeyError, _)| SceneError::Value {
             scene: name.to_owned(),
             message: error.to_string(),
         };
         file.check().map_err(value)?;
-        let curves = stockinette(knit)?;
         let loaded =
-            Loaded { curves, repairs: Vec::new(), notes: Vec::new(), format: "knit", kept_points: None };
+            Loaded { curves, repairs: Vec::new(), notes: Vec::new(), format: "curves", kept_points: None };
         let table = FabricTable { model: name.to_owned(), mm_per_unit: Some(1.0), ..Default::default() };
         let fabric = Fabric::from_loaded(&file, &table, loaded, name)?;
         file.fabric = vec![table];
-        let fabrics = vec![fabric];
-        let origin_mm = center(&fabrics);
+        Self::of_fabrics(file, vec![fabric])
+    }
+
+    /// A scene of fabrics that are made ready. An environment's path is relative to the working folder.
+    ///
+    /// # Errors
+    /// An environment that cannot be read.
+    pub fn of_fabrics(file: SceneFile, fabrics: Vec<Fabric>) -> Result<Self, SceneError> {
+        let origin_mm = origin(&file.camera, &fabrics);
         let environment = load_environment(&file.ambient, Path::new(""))?;
         Ok(Self { file, fabrics, origin_mm, environment })
     }
@@ -170,10 +185,22 @@ fn read_table(path: &Path) -> Result<Table, SceneError> {
     Ok(toml::from_str::<Table>(&text).map_err(at_line)?)
 }
 
-/// Centre of the box around all fabrics.
-fn center(fabrics: &[Fabric]) -> DVec3 {
+/// Half the diagonal of the box around all fabrics, in mm, up to which f32 places fibers around its centre to a
+/// thousandth of a millimetre.
+pub const NEAR_TOGETHER_MM: f64 = 1e4;
+
+/// What positions are relative to: the centre of the box around all fabrics, or where these lie too far apart for f32,
+/// what the camera looks at.
+fn origin(camera: &CameraTable, fabrics: &[Fabric]) -> DVec3 {
     let (low, high) = bounds(fabrics.iter().flat_map(Fabric::hull_points));
-    if low.is_finite() && high.is_finite() { 0.5 * (low + high) } else { DVec3::ZERO }
+    if !(low.is_finite() && high.is_finite()) {
+        return DVec3::ZERO;
+    }
+    let near_together = 0.5 * (high - low).length() <= NEAR_TOGETHER_MM;
+    match camera.target_mm.filter(|_| !camera.fit && !near_together) {
+        Some(target_mm) => DVec3::from_array(target_mm),
+        None => 0.5 * (low + high),
+    }
 }
 
 #[cfg(test)]

@@ -49,8 +49,8 @@ pub struct Scene {
     pub file: SceneFile,
     /// Its fabrics; at least one.
     pub fabrics: Vec<Fabric>,
-    /// Centre of everything. Positions go to the device relative to it, so that a model far from the
-    /// file's origin keeps its digits.
+    /// Centre of everything, or where fabrics lie far apart, what the camera looked at when it was loaded. Positions
+    /// go to the device relative to it, so that a model far from the file's origin keeps its digits.
     pub origin_mm: DVec3,
     /// The picture of the light from everywhere, if the file names one that gives light.
     pub environment: Option<Arc<LinearImage>>,

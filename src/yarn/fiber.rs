@@ -105,10 +105,12 @@ pub fn piece_tangent(b: &[DVec3; 4], derivative: DVec3) -> DVec3 {
     direction_or(derivative, direction_or(b[3] - b[0], direction_or(b[2] - b[1], DVec3::X)))
 }
 
-/// The unit `normal`, perpendicular to `from`, turned by the smallest rotation that takes the unit
-/// tangent `from` to `to`, times 1 + from . to: no division, so no pole where the yarn doubles back.
+/// The unit `normal` turned by the smallest rotation that takes the unit tangent `from` to `to`, times
+/// 1 + from . to: no division, so no pole where the yarn doubles back. What of it lies along `from` comes to lie along
+/// `to`: packed normals are not quite perpendicular.
 pub fn turned_normal(from: DVec3, to: DVec3, normal: DVec3) -> DVec3 {
-    (1.0 + from.dot(to)) * normal - normal.dot(to) * (from + to)
+    let (more, along) = (1.0 + from.dot(to), normal.dot(from));
+    more * (normal + 2.0 * along * to) - (along + normal.dot(to)) * (from + to)
 }
 
 /// Centre and frame at t of the Bezier piece `b` whose knots carry the given unit normals. Both

@@ -7,6 +7,8 @@ use std::f64::consts::PI;
 
 /// Steps of each of the two parts that radii are tabulated in.
 const STEPS: usize = 1024;
+/// Migration over less than this share of the radius is none.
+const STILL: f64 = 1e-9;
 /// Share of its radius below which a fiber counts as no nearer to the ply's axis: all of them there at once would be
 /// infinitely dense.
 const LEAST_MIGRATION: f64 = 0.05;
@@ -19,18 +21,24 @@ const LEAST_MIGRATION: f64 = 0.05;
 pub struct MigratedDensity {
     /// Where the two parts meet, in (0, 1]: at R_min, where the density has a kink.
     middle: f64,
-    /// Densities at both parts' nodes, that crowd toward the parts' ends; the middle stands twice.
+    /// Densities at both parts' nodes, that crowd toward the parts' ends; the middle stands twice. None without
+    /// migration: the density is then a formula.
     densities: Vec<f64>,
+    yarn: YarnParams,
 }
 
 impl MigratedDensity {
     /// That of a yarn, tabulated: within 1e-4 of the integral where p is not steep, within 2e-3 anywhere.
     pub fn new(yarn: &YarnParams) -> Self {
         let middle = yarn.migration_min.clamp(LEAST_MIGRATION, 1.0);
+        if yarn.migration_max - yarn.migration_min < STILL {
+            return Self { middle, densities: Vec::new(), yarn: yarn.clone() };
+        }
         let node = |i: usize| 0.5 - 0.5 * (PI * i as f64 / STEPS as f64).cos();
         let inner = (0..=STEPS).map(|i| middle * node(i));
         let outer = (0..=STEPS).map(|i| middle + (1.0 - middle) * node(i));
-        Self { middle, densities: inner.chain(outer).map(|radius| exact(yarn, radius)).collect() }
+        let densities = inner.chain(outer).map(|radius| exact(yarn, radius)).collect();
+        Self { middle, densities, yarn: yarn.clone() }
     }
 
     /// The density at `radius`, in [0, 1] of the ply's ellipse; 0 outside, where a yarn whose R_max is above 1 has
@@ -38,6 +46,9 @@ impl MigratedDensity {
     pub fn at(&self, radius: f64) -> f64 {
         if !(0.0..=1.0).contains(&radius) {
             return 0.0;
+        }
+        if self.densities.is_empty() {
+            return exact(&self.yarn, radius);
         }
         let outside = radius > self.middle;
         let (from, to) = if outside { (self.middle, 1.0) } else { (0.0, self.middle) };
@@ -63,7 +74,7 @@ fn exact(yarn: &YarnParams, radius: f64) -> f64 {
     let share = |phase: f64| (middle + amplitude * phase.cos()).max(LEAST_MIGRATION);
     let drawn =
         |share: f64| fiber_density(radius / share, yarn.density_beta, yarn.density_epsilon) / (share * share);
-    if amplitude < 1e-9 {
+    if 2.0 * amplitude < STILL {
         return drawn(share(0.0));
     }
     // Fibers reach this radius while m is at least it: from phase 0, where it is largest, to the last one.
@@ -133,7 +144,7 @@ mod tests {
         let density = MigratedDensity::new(&still);
         for radius in [0.0, 0.3, 0.6, 0.9, 0.99] {
             let p = fiber_density(radius, still.density_beta, still.density_epsilon);
-            assert!((density.at(radius) - p).abs() < 1e-5, "at {radius}: {} and {p}", density.at(radius));
+            assert!((density.at(radius) - p).abs() < 1e-12, "at {radius}: {} and {p}", density.at(radius));
         }
         for outside in [-0.1, 1.1, f64::NAN, f64::INFINITY] {
             assert_eq!(density.at(outside), 0.0);

@@ -1,11 +1,15 @@
 //! Centre lines made ready for fibers: windows of control points, rest lengths, turns and frames.
 
-use super::fiber::{PieceTurns, Turns};
+use super::fiber::{PieceTurns, Turns, piece_tangent};
 use super::params::YarnParams;
 use super::transport::{close_normals, knot_normals};
 use crate::math::curve::{Basis, Curve, arc_length, bezier_from_basis};
 use crate::math::rng::Rng;
 use glam::DVec3;
+
+/// Migrations after which the periods of an open curve count from 0 again, their random identities with them: with
+/// up to 64 periods to each, four numbers a period fit 32 bits. A closed curve may have no more.
+pub const MOST_MIGRATIONS: u32 = 1 << 22;
 
 /// One cubic piece of a yarn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +40,8 @@ pub struct Strands {
     pub pieces: Vec<Piece>,
     /// Control points as given, without phantom ones.
     pub control_point_count: usize,
-    /// For each curve, how many periods of the fibers' radius it closes after; 0 where it is open.
+    /// For each curve, how many migrations of the fibers' radius it closes after; an open one [`MOST_MIGRATIONS`]
+    /// where it has more than that, and 0 where it has not.
     pub period_counts: Vec<u32>,
 }
 
@@ -54,6 +59,18 @@ impl Strands {
     /// Unit normals at the two knots of a piece.
     pub fn knot_normals(&self, piece: &Piece) -> [DVec3; 2] {
         knot_offsets(self.basis).map(|k| self.normals[piece.first_point + k])
+    }
+
+    /// Unit tangent of the knot at each control point, as the piece behind it has it; +X at points that are no knot.
+    pub fn knot_tangents(&self) -> Vec<DVec3> {
+        let mut tangents = vec![DVec3::X; self.points.len()];
+        let [start, end] = knot_offsets(self.basis);
+        for piece in &self.pieces {
+            let b = self.bezier(piece);
+            tangents[piece.first_point + end] = piece_tangent(&b, b[3] - b[2]);
+            tangents[piece.first_point + start] = piece_tangent(&b, b[1] - b[0]);
+        }
+        tangents
     }
 }
 
@@ -139,11 +156,19 @@ fn append(all: &mut Strands, index: usize, curve: &Curve, yarn: &YarnParams, see
     }
 
     let rates = rates(yarn, total, curve.closed);
+    let migrations = (rates[2] * total).abs();
+    let wraps = migrations > f64::from(MOST_MIGRATIONS);
     if curve.closed {
-        all.period_counts[index] = (rates[2] * total).abs().round() as u32;
+        all.period_counts[index] = migrations.round() as u32;
+    } else if wraps {
+        all.period_counts[index] = MOST_MIGRATIONS;
     }
     let mut rng = Rng::new(seed, &[index as u64]);
     let phases: [f64; 3] = std::array::from_fn(|_| rng.uniform());
+    let wrapped = |turns: Turns| match wraps {
+        true => Turns { start: turns.start.rem_euclid(f64::from(MOST_MIGRATIONS)), ..turns },
+        false => turns,
+    };
     let mut length_start_mm = 0.0;
     for (start, length_mm) in starts.iter().zip(lengths) {
         let turns = |which: usize| Turns {
@@ -155,7 +180,7 @@ fn append(all: &mut Strands, index: usize, curve: &Curve, yarn: &YarnParams, see
             curve: index,
             length_start_mm,
             length_mm,
-            turns: PieceTurns { ply: turns(0), fiber: turns(1), migration: turns(2) },
+            turns: PieceTurns { ply: turns(0), fiber: turns(1), migration: wrapped(turns(2)) },
         });
         length_start_mm += length_mm;
     }
@@ -241,7 +266,36 @@ mod tests {
         // Whole numbers of turns lie between the two starts.
         for (a, b) in [(first.ply, last.ply), (first.fiber, last.fiber), (first.migration, last.migration)] {
             let apart = (b.start - a.start).abs();
-            assert!(apart > 1e7 && (apart - apart.round()).abs() < 1e-6, "{apart}");
+            assert!(apart > 1e6 && (apart - apart.round()).abs() < 1e-6, "{apart}");
+        }
+        assert!(last.ply.start.abs() > 1e7 && last.migration.start < f64::from(MOST_MIGRATIONS));
+        assert_eq!(strands.period_counts, [MOST_MIGRATIONS]);
+    }
+
+    #[test]
+    fn periods_that_count_anew_leave_no_seam() {
+        // 5.2 million migrations of this yarn, clockwise and not, cut where they begin to count anew.
+        for clockwise in [false, true] {
+            let mut yarn = presets::yarn("cotton1").unwrap();
+            (yarn.fiber_pitch_mm, yarn.fiber_clockwise, yarn.migration_rate) = (Some(1.0), clockwise, 1.0);
+            let points = (0..=5200).map(|i| DVec3::X * (f64::from(i) * 1000.0)).collect();
+            let field = FiberField::new(
+                strands(&[Curve { points, closed: false }], Basis::CatmullRom, &yarn, 3),
+                &yarn,
+                3,
+            );
+            let pieces = &field.strands.pieces;
+            let starts = |p: &Piece| p.turns.migration.start;
+            let seam = pieces.windows(2).position(|p| (starts(&p[1]) - starts(&p[0])).abs() > 1e6).unwrap();
+            for pair in [&pieces[seam..seam + 2], &pieces[7..9]] {
+                for fiber in 0..field.fibers.len() {
+                    let ((a, end), (b, start)) =
+                        (field.fiber_at(&pair[0], fiber, 1.0), field.fiber_at(&pair[1], fiber, 0.0));
+                    assert!((a.position - b.position).length() < 1e-5, "fiber {fiber}");
+                    let drawn = |p: crate::yarn::period::Period| (p.kind, p.reach, p.share, p.root_first);
+                    assert_eq!(drawn(end), drawn(start), "fiber {fiber}");
+                }
+            }
         }
     }
 

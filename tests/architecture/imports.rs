@@ -43,7 +43,8 @@ const TABLE: &[(&[&str], May)] = &[
         ]),
     ),
     (&["error"], May::ImportAnything),
-    (&["probe", "stress", "bench"], May::ImportAllAbove),
+    (&["probe", "bench"], May::ImportAllAbove),
+    (&["stress"], May::ImportAllAbove),
     (
         &["viewer"],
         May::Import(&[

@@ -8,6 +8,7 @@ mod export;
 mod probe;
 mod process;
 mod reference;
+mod stress;
 
 use process::{Workplace, assert_good, error_fault, swatch};
 use serde_json::Value;

@@ -138,7 +138,7 @@ fn a_fiber_at_a_light_is_bright_and_finite() {
     let mut renderer = Renderer::new(device, scene, request).unwrap();
     let picture = renderer.render(&|_| ()).unwrap();
     assert_eq!(renderer.stats().nan_pixels, 0);
-    assert!(renderer.stats().clamped_pixels > 10, "clamping is counted");
+    assert_eq!(renderer.stats().clamped_pixels, 0, "light is scaled to what frames can hold");
     assert!(picture.display.contains(&[255; 4]));
 }
 

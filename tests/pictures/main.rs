@@ -7,6 +7,7 @@ mod detail;
 #[path = "../support/device.rs"]
 mod device;
 mod draw;
+mod far;
 mod furnace;
 #[path = "../support/golden.rs"]
 #[allow(dead_code)]

@@ -1,9 +1,9 @@
 //! What each field's domain refuses, by the table that help prints.
 
-use crate::queries;
 use serde_json::{Value, json};
 use worsted::probe::fields::{Domain, Field};
 use worsted::probe::{FUNCTIONS, Function, Tally, described, probe};
+use worsted::stress::queries;
 
 fn answer(function: &'static Function, query: &Value) -> Value {
     let mut written = Vec::new();

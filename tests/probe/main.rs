@@ -6,12 +6,12 @@ mod compare;
 #[path = "../support/device.rs"]
 mod device;
 mod domains;
-mod queries;
 
 use compare::Figures;
 use serde_json::Value;
 use std::time::Instant;
 use worsted::probe::{FUNCTIONS, Function, Kernel, Tally, probe};
+use worsted::stress::queries;
 use worsted::vulkan::DeviceChoice;
 
 /// Lines of each function in a usual run of the tests.

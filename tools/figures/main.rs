@@ -1,6 +1,7 @@
 //! Draws the pictures of docs/figures.md, one command each: `figures fig4|fig9|fig10|...`.
 
 mod demo;
+mod extremes;
 mod fig10;
 mod fig11;
 mod fig12;
@@ -38,7 +39,7 @@ fn main() -> ExitCode {
 type Draw = fn(&Arc<Device>) -> Result<(), Error>;
 
 /// Every figure by its name.
-const FIGURES: [(&str, Draw); 14] = [
+const FIGURES: [(&str, Draw); 15] = [
     ("fig4", fig4::draw),
     ("fig5", fig5::draw),
     ("fig6", fig6::draw),
@@ -53,6 +54,7 @@ const FIGURES: [(&str, Draw); 14] = [
     ("fig16", fig16::draw),
     ("presets", presets::draw),
     ("demo", demo::draw),
+    ("extremes", extremes::draw),
 ];
 
 fn run(arguments: &[String]) -> Result<(), Error> {

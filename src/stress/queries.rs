@@ -1,43 +1,58 @@
-//! Random queries, reproducible, all over each function's domain and often at its edges.
+//! Random queries of probed functions, reproducible, all over what each is used for and often at its edges.
 
+use crate::bsdf::params::NARROWEST_DEG;
+use crate::math::rng::Rng;
+use crate::probe::fields::WIDEST_LOBE_DEG;
+use crate::yarn::density::extinction_per_mm;
+use crate::yarn::params::YarnParams;
+use crate::yarn::presets;
 use serde_json::{Value, json};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use worsted::math::rng::Rng;
-use worsted::yarn::density::extinction_per_mm;
-use worsted::yarn::params::YarnParams;
-use worsted::yarn::presets;
 
-/// So many queries of a function.
+/// Narrowest and widest lobe, in degrees.
+const WIDTHS_DEG: [f64; 2] = [NARROWEST_DEG, WIDEST_LOBE_DEG];
+
+/// So many queries of a function; none where no yarn preset is at hand.
 pub fn random(function: &str, count: usize) -> Vec<Value> {
-    let mut random = Random(Rng::new(9, &[function.len() as u64, count as u64]));
-    let yarns: Vec<YarnParams> = presets::yarn_names().map(|name| presets::yarn(name).unwrap()).collect();
-    (0..count).map(|index| random.query(function, &yarns[index % yarns.len()])).collect()
+    let mut random = Random::new(&[function.len() as u64, count as u64]);
+    let yarns: Vec<YarnParams> = presets::yarn_names().filter_map(presets::yarn).collect();
+    let yarns = yarns.iter().cycle();
+    yarns.take(count).map(|yarn| random.query(function, yarn)).collect()
 }
 
-struct Random(Rng);
+/// Random numbers as sweeps want them.
+pub struct Random(Rng);
 
 impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    /// The stream of that name.
+    pub fn new(name: &[u64]) -> Self {
+        Self(Rng::new(9, name))
+    }
+
+    /// Uniform.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.0.uniform()
     }
 
     /// Uniform in the logarithm.
-    fn magnitude(&mut self, low: f64, high: f64) -> f64 {
+    pub fn magnitude(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp()
     }
 
-    fn below(&mut self, count: u32) -> u32 {
+    /// A whole number.
+    pub fn below(&mut self, count: u32) -> u32 {
         (self.0.uniform() * f64::from(count)) as u32
     }
 
-    fn sign(&mut self) -> f64 {
+    /// 1 or -1.
+    pub fn sign(&mut self) -> f64 {
         if self.below(2) == 0 { 1.0 } else { -1.0 }
     }
 
-    fn numbers(&mut self, count: usize, size: f64) -> Vec<f64> {
+    /// So many numbers within `size` of 0.
+    pub fn numbers(&mut self, count: usize, size: f64) -> Vec<f64> {
         (0..count).map(|_| self.between(-size, size)).collect()
     }
-
     /// Half of them anywhere, half near a pole by any distance; some on it.
     fn theta(&mut self) -> f64 {
         let from_pole = match self.below(8) {
@@ -49,7 +64,7 @@ impl Random {
     }
 
     fn width(&mut self, widest_deg: f64) -> f64 {
-        self.magnitude(0.5, widest_deg).to_radians()
+        self.magnitude(WIDTHS_DEG[0], widest_deg).to_radians()
     }
 
     fn color(&mut self) -> Value {
@@ -61,7 +76,8 @@ impl Random {
         }
     }
 
-    fn query(&mut self, function: &str, preset: &YarnParams) -> Value {
+    /// A query of a function; of a yarn's inside, of `preset`.
+    pub fn query(&mut self, function: &str, preset: &YarnParams) -> Value {
         match function {
             "curve_point" => json!({"control_points": self.piece().0, "basis": self.basis(), "t": self.t()}),
             "fiber_point" => self.fiber_point(),
@@ -87,11 +103,16 @@ impl Random {
                 let theta_h = (width * self.between(-6.0, 6.0)).clamp(-FRAC_PI_2, FRAC_PI_2);
                 json!({"strength": self.magnitude(1e-3, 1e3), "theta_h": theta_h, "phi": self.between(-TAU, TAU), "width": width})
             }
-            "longitudinal_normaliser" => json!({"theta": self.theta(), "width": self.width(WIDEST_DEG)}),
+            "longitudinal_normaliser" => json!({"theta": self.theta(), "width": self.width(WIDTHS_DEG[1])}),
             "azimuthal_tt" => {
-                let width = self.width(WIDEST_DEG);
+                let width = self.width(WIDTHS_DEG[1]);
                 json!({"phi": self.phi(width), "width": width})
             }
+            "tone_neutral" | "tone_filmic" => {
+                let most = self.magnitude(1e-6, 1e6);
+                json!({"radiance": [self.between(0.0, most), self.between(0.0, most), self.between(0.0, most)]})
+            }
+            "srgb_from_linear" => json!({"linear": self.magnitude(1e-7, 1.0)}),
             _ => self.scattering(),
         }
     }
@@ -158,7 +179,7 @@ impl Random {
     }
 
     fn scattering(&mut self) -> Value {
-        let [r, tt, gamma] = [WIDEST_DEG; 3].map(|widest| self.width(widest));
+        let [r, tt, gamma] = [WIDTHS_DEG[1]; 3].map(|widest| self.width(widest));
         let theta_i = self.theta();
         let theta_o = match self.below(4) {
             0 => self.theta(),
@@ -169,6 +190,3 @@ impl Random {
         json!({"theta_i": theta_i, "theta_o": theta_o, "phi": self.phi(gamma), "fiber": fiber})
     }
 }
-
-/// Widest lobe tried, in degrees.
-pub const WIDEST_DEG: f64 = 89.0;

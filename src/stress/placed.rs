@@ -1,44 +1,59 @@
-//! Asks the device where fibers are, through the renderer's own buffers and its own GLSL function.
+//! Asks the device where fibers are, through a renderer's own buffers and its own GLSL function.
 
-use crate::device::shared;
-use bytemuck::{Pod, Zeroable};
-use worsted::frame::Renderer;
-use worsted::passes::strand_pipeline::specialization;
-use worsted::scene::features::Features;
-use worsted::shaders;
-use worsted::vulkan::{
-    Access, Binding, Buffer, ComputePipelineInfo, DescriptorLayout, DescriptorSet, DeviceChoice, MemoryKind,
+use crate::frame::Renderer;
+use crate::passes::strand_pipeline::specialization;
+use crate::scene::features::Features;
+use crate::shaders;
+use crate::vulkan::{
+    Access, Binding, Buffer, ComputePipelineInfo, DescriptorLayout, DescriptorSet, Device, MemoryKind,
     Pipeline, Resource, VulkanError, vk,
 };
+use bytemuck::{Pod, Zeroable};
+use std::sync::Arc;
 
-/// `Query` of `glsl/test/fiber_point.comp`.
-#[derive(Clone, Copy, Pod, Zeroable)]
+/// The kernel.
+const KERNEL: &str = "test/fiber_point.comp";
+/// Invocations of its work group.
+const GROUP: u32 = 64;
+
+/// A place on a fiber; `Query` of the kernel.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct Query {
+    /// The piece of yarn.
     pub segment: u32,
+    /// The fiber of the cross-section.
     pub fiber: u32,
+    /// The place on the piece, 0 to 1.
     pub t: f32,
+    /// 0.
     pub padding: u32,
 }
 
-/// `Answer` of `glsl/test/fiber_point.comp`.
+/// What is there; `Answer` of the kernel. Lengths in mm, relative to the scene's origin.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct Answer {
+    /// The fiber's centre.
     pub position: [f32; 3],
+    /// Its distance from the yarn's centre line.
     pub center_distance: f32,
+    /// Its unit direction.
     pub tangent: [f32; 3],
-    /// [`Kind`] of the period.
+    /// Number of the period's [`crate::yarn::period::Kind`].
     pub kind: f32,
 }
 
-/// The device's answers, through sets 0 and 1 as the picture's passes bind them.
+/// The device's answers about a scene's first fabric, whose features are given.
+///
+/// # Errors
+/// Those of the device.
 pub fn ask_device(
+    device: &Arc<Device>,
     renderer: &Renderer,
     features: &Features,
     queries: &[Query],
 ) -> Result<Vec<Answer>, VulkanError> {
-    let device = shared(DeviceChoice::Auto);
     let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
     let asked = Buffer::upload(device, "queries", storage, queries)?;
     let bytes = size_of::<Answer>() as u64 * queries.len() as u64;
@@ -52,7 +67,7 @@ pub fn ask_device(
     let [frame_layout, fabric_layout] = renderer.fibers_pass().layouts();
     let info = ComputePipelineInfo {
         name: "fiber point",
-        spirv: shaders::get("test/fiber_point.comp").expect("the kernel is embedded"),
+        spirv: shaders::get(KERNEL).ok_or_else(|| VulkanError::misuse(format!("no shader `{KERNEL}`")))?,
         constants: &specialization(features, vk::SampleCountFlags::TYPE_1),
         set_layouts: &[frame_layout, fabric_layout, &layout],
         push_constant_bytes: 0,
@@ -61,11 +76,12 @@ pub fn ask_device(
     let pipeline = Pipeline::compute(device, &info)?;
     let bound = [(0, Resource::Storage(&asked)), (1, Resource::Storage(&answered))];
     let set = DescriptorSet::new(&layout, "queries", &bound)?;
-    let [frame_set, fabric_set] = renderer.fibers_pass().sets(0).expect("the scene has a fabric");
+    let missing = || VulkanError::misuse("a scene without a fabric");
+    let [frame_set, fabric_set] = renderer.fibers_pass().sets(0).ok_or_else(missing)?;
     device.run_once("fiber point", |commands| {
         commands.bind_pipeline(&pipeline);
         commands.bind_sets(&pipeline, &[frame_set, fabric_set, &set]);
-        commands.dispatch([(queries.len() as u32).div_ceil(64), 1, 1]);
+        commands.dispatch([(queries.len() as u32).div_ceil(GROUP), 1, 1]);
         commands.memory_barrier(Access::COMPUTE_WRITE, Access::HOST_READ);
         Ok(())
     })?;
