@@ -23,7 +23,7 @@ use crate::scene::file::CameraTable;
 use crate::scene::light::{LightTable, check_lights};
 use crate::scene::{Scene, SceneError};
 use crate::shaders::ShaderSet;
-use crate::vulkan::{Buffer, Device, ImageState, MemoryKind, VulkanError, vk};
+use crate::vulkan::{Buffer, Device, ImageState, MemoryKind, Taken, VulkanError, vk};
 use crate::yarn::table::fiber_table;
 use bake::Bakes;
 use cloth::Cloth;
@@ -223,7 +223,7 @@ impl Renderer {
         self.fibers
             .plan(|fabric, strands| plan::draw_plan(scene, &scene.fabrics[fabric], view, strands, is_cpu));
         let frames = self.request.sampling.frames();
-        let mut taken = Duration::ZERO;
+        let mut taken = Taken::NOTHING;
         let mut passes = HashMap::new();
         if self.request.statistics {
             self.statistics.replace(&[Statistics::default()])?;
@@ -260,9 +260,9 @@ impl Renderer {
         light_scale: f64,
         mut timings: Option<&mut HashMap<&'static str, Duration>>,
         progress: &dyn Fn(f64),
-    ) -> Result<Duration, VulkanError> {
+    ) -> Result<Taken, VulkanError> {
         let parts = self.fibers.parts(self.scene.file.quality.curves_per_submission);
-        let mut taken = Duration::ZERO;
+        let mut taken = Taken::NOTHING;
         for part in 0..parts {
             let fibers = self.fibers.pass(&self.targets, part, parts);
             taken += run(&mut self.graph, &self.device, &[fibers], timings.as_deref_mut())?;
@@ -289,7 +289,7 @@ fn run(
     device: &Arc<Device>,
     passes: &[Pass<'_>],
     timings: Option<&mut HashMap<&'static str, Duration>>,
-) -> Result<Duration, VulkanError> {
+) -> Result<Taken, VulkanError> {
     match timings {
         Some(timings) => graph.run_timed(device, passes, timings),
         None => graph.run(device, "frame", passes),

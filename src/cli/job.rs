@@ -1,6 +1,7 @@
 //! What was typed, resolved into what will run.
 
 use super::args::{Common, Render, SceneArgs};
+use super::budget::BudgetJob;
 use super::output::Output;
 use crate::error::Error;
 use crate::frame::Request;
@@ -8,12 +9,20 @@ use crate::io::picture::{MAX_PIXELS, MAX_SIDE};
 use crate::io::whole::check_target;
 use crate::reference::fibers::RealiseSettings;
 use crate::scene::Scene;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A picture to be drawn.
 pub struct RenderJob {
     /// The scene, loaded.
     pub scene: Scene,
+    /// The same, whatever a budget does to the other.
+    pub asked_for: Scene,
+    /// Where it was loaded from.
+    pub path: PathBuf,
+    /// With these assignments.
+    pub sets: Vec<String>,
+    /// What the picture may cost.
+    pub budget: Option<BudgetJob>,
     /// Size, samples, and what to count.
     pub request: Request,
     /// Where the picture goes.
@@ -21,7 +30,7 @@ pub struct RenderJob {
     /// Pictures to draw for the statistics.
     pub repeat: u32,
     /// Where statistics go.
-    pub stats: Option<std::path::PathBuf>,
+    pub stats: Option<PathBuf>,
     /// Whether to say what was left out.
     pub explain: bool,
     /// Device and log options.
@@ -44,10 +53,21 @@ impl RenderJob {
             statistics: args.stats.is_some() || args.explain,
             profile: args.profile,
         };
-        let scene = load_scene(&args.scene, args.view.camera.as_deref())?;
-        let explain = args.explain;
-        let (repeat, stats) = (args.repeat, args.stats.clone());
-        Ok(Self { scene, request, outputs, repeat, stats, explain, common: common.clone() })
+        let sets = assignments(&args.scene, args.view.camera.as_deref())?;
+        let scene = Scene::load(&args.scene.path, &sets)?;
+        Ok(Self {
+            asked_for: scene.clone(),
+            scene,
+            path: args.scene.path.clone(),
+            sets,
+            budget: BudgetJob::new(&args.budget)?,
+            request,
+            outputs,
+            repeat: args.repeat,
+            stats: args.stats.clone(),
+            explain: args.explain,
+            common: common.clone(),
+        })
     }
 }
 
@@ -56,10 +76,15 @@ impl RenderJob {
 /// # Errors
 /// A camera that makes no sense, a scene that cannot be had.
 pub(super) fn load_scene(args: &SceneArgs, camera: Option<&str>) -> Result<Scene, Error> {
+    Ok(Scene::load(&args.path, &assignments(args, camera)?)?)
+}
+
+/// What `--camera`, `--seed` and `--set` set.
+fn assignments(args: &SceneArgs, camera: Option<&str>) -> Result<Vec<String>, Error> {
     let mut assignments = camera.map(camera_assignments).transpose()?.unwrap_or_default();
     assignments.extend(args.seed.map(|seed| format!("seed={seed}")));
     assignments.extend(args.set.iter().cloned());
-    Ok(Scene::load(&args.path, &assignments)?)
+    Ok(assignments)
 }
 
 /// Says what a user should know of how the yarn was read.

@@ -1,6 +1,8 @@
 //! What was typed becomes a job, and the job runs: one file per command.
 
 pub mod args;
+mod bench;
+mod budget;
 mod compare;
 mod doctor;
 mod export;
@@ -26,7 +28,8 @@ use std::sync::Arc;
 /// One line, and an exit code.
 pub fn run(args: &Args) -> Result<(), Error> {
     match &args.command {
-        Command::Render(render) => render::run(&job::RenderJob::new(render, &args.common)?),
+        Command::Render(render) => render::run(job::RenderJob::new(render, &args.common)?),
+        Command::Bench(bench) => bench::run(bench, &args.common),
         Command::Reference(reference) => {
             reference::run(&reference::ReferenceJob::new(reference, &args.common)?)
         }

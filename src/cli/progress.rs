@@ -21,7 +21,7 @@ pub fn share_bar(common: &Common) -> ProgressBar {
     if !is_shown(common) {
         return ProgressBar::hidden();
     }
-    ProgressBar::new(STEPS as u64).with_style(style("{bar:40} {percent}% {elapsed} (left: {eta})"))
+    ProgressBar::new(STEPS as u64).with_style(style("{bar:40} {percent}% {elapsed} (left: {eta}) {msg}"))
 }
 
 /// Moves a [`share_bar`] to `share` of the whole, 0 to 1.

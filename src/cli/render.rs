@@ -5,18 +5,24 @@ use super::open_device;
 use super::output::write_text;
 use super::progress::{set_share, share_bar};
 use crate::error::Error;
-use crate::frame::Renderer;
 use crate::frame::stats::Stats;
+use crate::frame::{Picture, Renderer};
 use crate::vulkan::Device;
 
 /// Draws, writes, reports.
 ///
 /// # Errors
-/// No device, a device that fails, files that cannot be written, pixels that are not numbers.
-pub fn run(job: &RenderJob) -> Result<(), Error> {
+/// No device, a device that fails, files that cannot be written, pixels that are not numbers, a budget that cannot
+/// be kept or was not.
+pub fn run(mut job: RenderJob) -> Result<(), Error> {
     report_notes(&job.scene, &job.common);
     let device = open_device(&job.common)?;
-    let stats = draw(job, &device)?;
+    let budget = job.budget.take();
+    if let Some(budget) = &budget {
+        budget.settle(&mut job, &device)?;
+    }
+    let (picture, stats) = draw(&job, &device)?;
+    let kept = budget.map_or(Ok(()), |budget| budget.verify(&job, &device, &picture));
     Device::shutdown(device)?;
     if let Some(path) = &job.stats {
         let text =
@@ -30,10 +36,10 @@ pub fn run(job: &RenderJob) -> Result<(), Error> {
         let message = format!("{} pixels are not finite numbers: please report this scene", stats.nan_pixels);
         return Err(Error::Failed(message));
     }
-    Ok(())
+    kept
 }
 
-fn draw(job: &RenderJob, device: &std::sync::Arc<Device>) -> Result<Stats, Error> {
+fn draw(job: &RenderJob, device: &std::sync::Arc<Device>) -> Result<(Picture, Stats), Error> {
     let mut renderer = Renderer::new(device, job.scene.clone(), job.request)?;
     let bar = share_bar(&job.common);
     let pictures = f64::from(job.repeat);
@@ -44,14 +50,13 @@ fn draw(job: &RenderJob, device: &std::sync::Arc<Device>) -> Result<Stats, Error
         picture = Some(renderer.render(&progress)?);
     }
     bar.finish_and_clear();
-    if let Some(picture) = &picture {
-        for output in &job.outputs {
-            output.write(picture)?;
-        }
+    let picture = picture.ok_or_else(|| Error::Failed("expected a picture, found none".into()))?;
+    for output in &job.outputs {
+        output.write(&picture)?;
     }
     let mut stats = renderer.stats().clone();
     stats.set_gpu_bytes(device);
-    Ok(stats)
+    Ok((picture, stats))
 }
 
 fn explain(stats: &Stats) {

@@ -2,26 +2,14 @@
 
 use super::{Milliseconds, Request, ms};
 use crate::gpu_types::{RADIANCE_MAX, Statistics};
+pub use crate::math::spread::Spread;
 use crate::scene::Scene;
 use crate::scene::features::Features;
-use crate::vulkan::Device;
+use crate::vulkan::{Device, Taken};
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 use std::time::Duration;
-
-/// Spread of a measured time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Spread {
-    /// Middle of all measurements.
-    pub median: f64,
-    /// Shortest.
-    pub min: f64,
-    /// Longest.
-    pub max: f64,
-    /// Number of measurements.
-    pub frames: usize,
-}
 
 /// A picture's statistics, in the units of the keys' names.
 #[derive(Clone, Debug, Serialize)]
@@ -50,6 +38,8 @@ pub struct Stats {
     pub patches_culled: Option<u64>,
     /// Wall time of whole pictures on the device.
     pub frame_ms: Spread,
+    /// The same by the device's own clock, where it has one.
+    pub device_ms: Option<Spread>,
     /// Mean time of each pass per picture; only when profiled.
     pub passes: Milliseconds,
     /// How `passes` was timed.
@@ -65,7 +55,7 @@ pub struct Stats {
     /// Pixels with a value that was clamped on its way.
     pub clamped_pixels: u64,
     #[serde(skip)]
-    frames: Vec<f64>,
+    frames: Vec<Taken>,
 }
 
 impl Stats {
@@ -85,6 +75,7 @@ impl Stats {
             patches_drawn: None,
             patches_culled: None,
             frame_ms: Spread::default(),
+            device_ms: None,
             passes: BTreeMap::new(),
             timing_method: None,
             precompute_ms: BTreeMap::new(),
@@ -115,22 +106,23 @@ impl Stats {
         self.patches_culled = Some(counted.patches_culled.into());
     }
 
-    pub(super) fn add_frame(&mut self, taken: Duration, passes: HashMap<&'static str, Duration>) {
-        self.frames.push(ms(taken));
-        let mut sorted = self.frames.clone();
-        sorted.sort_by(f64::total_cmp);
-        let count = sorted.len();
-        self.frame_ms = Spread {
-            median: 0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]),
-            min: sorted[0],
-            max: sorted[count - 1],
-            frames: count,
-        };
+    pub(super) fn add_frame(&mut self, taken: Taken, passes: HashMap<&'static str, Duration>) {
+        self.frames.push(taken);
+        let wall: Vec<f64> = self.frames.iter().map(|taken| ms(taken.wall)).collect();
+        let device: Option<Vec<f64>> = self.frames.iter().map(|taken| taken.device.map(ms)).collect();
+        self.frame_ms = Spread::of(&wall).unwrap_or_default();
+        self.device_ms = device.and_then(|device| Spread::of(&device));
+        let count = self.frames.len();
         for (name, taken) in passes {
             let mean = self.passes.entry(name.to_owned()).or_default();
             *mean += (ms(taken) - *mean) / count as f64;
             self.timing_method = Some("one submission per pass, wall time to its fence");
         }
+    }
+
+    /// What the last picture took.
+    pub fn last_frame(&self) -> Option<Taken> {
+        self.frames.last().copied()
     }
 
     /// Counts what must not be in a picture's linear pixels, whose light was drawn `light_scale` times as strong.
@@ -174,9 +166,13 @@ mod tests {
     fn frame_times_give_median_and_spread() {
         let mut stats = Stats::for_tests();
         for milliseconds in [30, 10, 20, 40] {
-            stats.add_frame(Duration::from_millis(milliseconds), HashMap::new());
+            let wall = Duration::from_millis(milliseconds);
+            stats.add_frame(Taken { wall, device: Some(wall / 2) }, HashMap::new());
         }
         assert_eq!(stats.frame_ms, Spread { median: 25.0, min: 10.0, max: 40.0, frames: 4 });
+        assert_eq!(stats.device_ms, Some(Spread { median: 12.5, min: 5.0, max: 20.0, frames: 4 }));
+        stats.add_frame(Taken { wall: Duration::ZERO, device: None }, HashMap::new());
+        assert_eq!(stats.device_ms, None, "of some pictures only");
     }
 
     impl Stats {
@@ -194,6 +190,7 @@ mod tests {
                 patches_drawn: None,
                 patches_culled: None,
                 frame_ms: Spread::default(),
+                device_ms: None,
                 passes: BTreeMap::new(),
                 timing_method: None,
                 precompute_ms: BTreeMap::new(),

@@ -1,6 +1,6 @@
 //! Passes that declare what they touch; barriers, debug labels and timings follow from it.
 
-use crate::vulkan::{Access, Buffer, Commands, Device, Image, ImageState, VulkanError, vk};
+use crate::vulkan::{Access, Buffer, Commands, Device, Image, ImageState, Taken, VulkanError, vk};
 use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Duration;
@@ -49,7 +49,7 @@ fn writes(access: Access) -> bool {
 }
 
 impl Graph {
-    /// Runs the passes in order in one submission and waits. Returns the wall time.
+    /// Runs the passes in order in one submission, waits, and returns what that took.
     ///
     /// # Errors
     /// Whatever a pass's recording or the submission reports.
@@ -58,8 +58,8 @@ impl Graph {
         device: &Arc<Device>,
         label: &str,
         passes: &[Pass<'_>],
-    ) -> Result<Duration, VulkanError> {
-        device.run_once(label, |commands| passes.iter().try_for_each(|pass| self.record(commands, pass)))
+    ) -> Result<Taken, VulkanError> {
+        device.run_measured(label, |commands| passes.iter().try_for_each(|pass| self.record(commands, pass)))
     }
 
     /// Runs every pass in a submission of its own, adding its wall time to `timings`: the only method
@@ -72,11 +72,11 @@ impl Graph {
         device: &Arc<Device>,
         passes: &[Pass<'_>],
         timings: &mut HashMap<&'static str, Duration>,
-    ) -> Result<Duration, VulkanError> {
-        let mut total = Duration::ZERO;
+    ) -> Result<Taken, VulkanError> {
+        let mut total = Taken::NOTHING;
         for pass in passes {
-            let taken = device.run_once(pass.name, |commands| self.record(commands, pass))?;
-            *timings.entry(pass.name).or_default() += taken;
+            let taken = device.run_measured(pass.name, |commands| self.record(commands, pass))?;
+            *timings.entry(pass.name).or_default() += taken.wall;
             total += taken;
         }
         Ok(total)

@@ -6,6 +6,7 @@
 pub mod blocks;
 pub mod coverage;
 pub mod error;
+pub mod error_vs_time;
 pub mod flip;
 pub mod noise;
 

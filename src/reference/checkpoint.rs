@@ -4,7 +4,7 @@ use super::integrator::TraceSettings;
 use super::rendering::{PixelSums, Rendering, Tally};
 use crate::io::error::{FileError, Place};
 use crate::io::whole::write_whole;
-use crate::math::rng::mix64;
+use crate::math::digest::Digest;
 use crate::scene::Scene;
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ struct Header {
 
 /// What names a picture in the making: everything that decides its samples, but for their number.
 pub fn key(scene: &Scene, size: [u32; 2], chord_error: f64, settings: &TraceSettings) -> u64 {
-    let mut hash = Hash(0);
+    let mut hash = Digest(0);
     let mut file = scene.file.clone();
     // Neither decides what a sample sees.
     file.display = Default::default();
@@ -50,23 +50,8 @@ pub fn key(scene: &Scene, size: [u32; 2], chord_error: f64, settings: &TraceSett
     hash.0
 }
 
-struct Hash(u64);
-
-impl Hash {
-    fn words(&mut self, words: impl IntoIterator<Item = u64>) {
-        for word in words {
-            self.0 = mix64(self.0.rotate_left(23) ^ mix64(word));
-        }
-    }
-
-    fn text(&mut self, text: &str) {
-        self.words([text.len() as u64]);
-        self.words(text.bytes().map(u64::from));
-    }
-}
-
 fn checksum(pixels: &[PixelSums]) -> u64 {
-    let mut hash = Hash(1);
+    let mut hash = Digest(1);
     hash.words(cast_slice::<PixelSums, u64>(pixels).iter().copied());
     hash.0
 }

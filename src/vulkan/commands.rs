@@ -12,6 +12,7 @@ use super::descriptors::{DescriptorSet, Kept};
 use super::device::{Device, c_text};
 use super::error::{VkContext, VulkanError};
 use super::pipeline::Pipeline;
+use super::timestamps::{Taken, Timestamps};
 
 /// One wait on the fence; after each, a word to whoever watches.
 const FENCE_WAIT: Duration = Duration::from_secs(30);
@@ -75,6 +76,26 @@ impl Device {
         record: impl FnOnce(&Commands<'_>) -> Result<(), VulkanError>,
     ) -> Result<Duration, VulkanError> {
         self.run_once_with(label, Semaphores::default(), record)
+    }
+
+    /// As [`Self::run_once`], and says what the device's own clock counted.
+    ///
+    /// # Errors
+    /// As [`Self::run_once`].
+    pub fn run_measured(
+        self: &Arc<Self>,
+        label: &str,
+        record: impl FnOnce(&Commands<'_>) -> Result<(), VulkanError>,
+    ) -> Result<Taken, VulkanError> {
+        let timestamps = Timestamps::new(self, label)?;
+        let wall = self.run_once(label, |commands| {
+            timestamps.iter().for_each(|timestamps| timestamps.begin(commands.raw()));
+            record(commands)?;
+            timestamps.iter().for_each(|timestamps| timestamps.end(commands.raw()));
+            Ok(())
+        })?;
+        let device = timestamps.map(|timestamps| timestamps.read(label)).transpose()?;
+        Ok(Taken { wall, device })
     }
 
     /// As [`Self::run_once`], with semaphores before and after.

@@ -21,6 +21,7 @@ mod rendering;
 mod sampler;
 mod select;
 mod shader;
+mod timestamps;
 mod transfer;
 
 pub use ash::vk;
@@ -41,3 +42,4 @@ pub use rendering::{ColorTarget, DepthTarget, Rendering};
 pub use sampler::{Sampler, SamplerInfo};
 pub use select::{DeviceChoice, OptionalFeatures};
 pub use shader::{ShaderStage, SpecializationConstants};
+pub use timestamps::Taken;

@@ -2,9 +2,8 @@
 
 use crate::report::{overrides_line, print_columns, print_head};
 use crate::stage::{DEFAULT_SAMPLES, Stage, joined, request};
-use rustix::time::{ClockId, clock_gettime};
 use std::path::PathBuf;
-use std::time::Instant;
+use worsted::bench::clock::{Seconds, timed};
 use worsted::error::Error;
 use worsted::frame::{Renderer, Request};
 use worsted::scene::Scene;
@@ -27,13 +26,6 @@ pub struct Options {
 
 /// A way to draw: what it is called, and its settings.
 pub type Way<'a> = (&'a str, &'a [&'a str]);
-
-/// Seconds of two clocks.
-#[derive(Clone, Copy)]
-pub struct Seconds {
-    pub cpu: f64,
-    pub wall: f64,
-}
 
 /// One way's times.
 pub struct Cost {
@@ -89,23 +81,10 @@ pub fn compare(stage: &Stage, options: &Options, title: &str, ways: &[Way<'_>]) 
 fn measure(stage: &Stage, options: &Options, sets: &[&str], request: Request) -> Result<Cost, Error> {
     let own: Vec<String> = ["camera.fit=true"].iter().chain(sets).map(|set| (*set).to_owned()).collect();
     let sets = joined(&options.set, &own);
-    let (scene, load) = timed(|| Ok(Scene::load(&options.model, &sets)?))?;
-    let (mut renderer, build) = timed(|| Ok(Renderer::new(stage.device(), scene, request)?))?;
-    let (_, render) = timed(|| Ok(renderer.render(&|_| {})?))?;
+    let (scene, load) = timed(|| Scene::load(&options.model, &sets))?;
+    let (mut renderer, build) = timed(|| Renderer::new(stage.device(), scene, request))?;
+    let (_, render) = timed(|| renderer.render(&|_| {}))?;
     Ok(Cost { load, build, render })
-}
-
-/// Does `work` and says what it took.
-fn timed<T>(work: impl FnOnce() -> Result<T, Error>) -> Result<(T, Seconds), Error> {
-    let (cpu, wall) = (cpu_seconds(), Instant::now());
-    let done = work()?;
-    Ok((done, Seconds { cpu: cpu_seconds() - cpu, wall: wall.elapsed().as_secs_f64() }))
-}
-
-/// User and system time of this process so far, all threads together.
-fn cpu_seconds() -> f64 {
-    let time = clock_gettime(ClockId::ProcessCPUTime);
-    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
 }
 
 /// `1280x960`.

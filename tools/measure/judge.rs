@@ -5,15 +5,12 @@ use crate::pictures::{Shot, save};
 use crate::report::{overrides_line, print_columns, print_head};
 use crate::stage::{Cloth, EVERY_FIBER, Model, Stage, joined, pixel_tangent, request};
 use std::path::PathBuf;
+use worsted::bench::against;
+use worsted::bench::truth::{first_and_seconds, tracer};
 use worsted::error::Error;
 use worsted::io::picture::LinearImage;
-use worsted::math::tone::Display;
-use worsted::metrics::error::{Comparison, compare};
-use worsted::reference::accel::Accel;
 use worsted::reference::display::displayed;
-use worsted::reference::fibers::realise;
-use worsted::reference::geometry::FiberGeometry;
-use worsted::reference::integrator::{TraceSettings, Tracer};
+use worsted::reference::integrator::TraceSettings;
 use worsted::reference::rendering::Rendering;
 use worsted::scene::Scene;
 
@@ -22,8 +19,6 @@ const CLOTH: Cloth = Cloth::Stockinette { wales: 8, courses: 10 };
 const FOV_Y_DEG: f64 = 35.0;
 /// Widths of a fiber at the camera's target, in pixels: nearly every fiber is drawn, some are, cores alone.
 const DISTANCES: [(&str, f64); 3] = [("close", 1.2), ("middle", 0.4), ("far", 0.12)];
-/// Tiles traced between two looks at whether all is done.
-const TILES_AT_ONCE: u64 = 256;
 
 /// Parts of the light, by what is left out of the scene.
 const PARTS: [(&str, &[&str]); 3] = [
@@ -219,28 +214,14 @@ fn print_switches(
 
 /// Traces the scene twice, with samples of its own each time.
 fn traced(scene: &Scene, shadows: bool, options: &Options) -> Result<Truth, Error> {
-    let fibers = realise(scene, &Default::default()).map_err(|e| Error::Failed(e.to_string()))?;
-    let geometry = FiberGeometry::<f32>::new(fibers, scene.origin_mm);
-    let accel = Accel::new(geometry).map_err(|e| Error::Failed(e.to_string()))?;
     let settings = TraceSettings { shadows, ..Default::default() };
-    let tracer = Tracer::new(scene, accel, size(options), settings);
+    let (tracer, _) = tracer(scene, size(options), settings)?;
     let mut rendering = Rendering::new(size(options));
-    let mut trace_to = |samples: u64| {
-        while !rendering.is_done(samples) {
-            rendering.advance(&tracer, samples, TILES_AT_ONCE);
-        }
-        rendering.measured().mean
-    };
     let samples = u64::from(options.samples);
-    let (first, both) = (trace_to(samples), trace_to(2 * samples));
-    let rest = both.pixels.iter().zip(&first.pixels);
-    let pixels =
-        rest.map(|(both, first)| std::array::from_fn(|c| (2.0 * both[c] - first[c]).max(0.0))).collect();
-    Ok(Truth { second: LinearImage { pixels, ..both }, first })
-}
-
-fn against(test: &LinearImage, reference: &LinearImage) -> Result<Comparison, Error> {
-    compare(test, reference, &Display::PLAIN).map_err(|e| Error::Failed(e.to_string()))
+    let (first, seconds) = first_and_seconds(&tracer, &mut rendering, samples, &[samples], |_| Ok(()))?;
+    let second = seconds.into_iter().next();
+    let second = second.ok_or_else(|| Error::Failed("expected a second picture, found none".into()))?;
+    Ok(Truth { first: first.mean, second })
 }
 
 /// Light of the whole picture over the reference's.

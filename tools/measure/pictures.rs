@@ -6,10 +6,9 @@ use worsted::frame::Picture;
 use worsted::frame::stats::Stats;
 use worsted::io::error::FileError;
 use worsted::io::picture::{DisplayImage, LinearImage, write_png};
-use worsted::math::tone::Display;
 use worsted::metrics::MetricError;
 use worsted::metrics::coverage::Coverage;
-use worsted::metrics::error::{Comparison, compare};
+use worsted::metrics::error::Comparison;
 use worsted::metrics::flip::FlipMap;
 
 /// A picture and what was counted as it was drawn.
@@ -36,7 +35,7 @@ impl Shot {
     /// # Errors
     /// Pictures that cannot be compared.
     pub fn against(&self, reference: &Self) -> Result<Comparison, Error> {
-        compare(&self.linear, &reference.linear, &Display::PLAIN).map_err(failed)
+        worsted::bench::against(&self.linear, &reference.linear)
     }
 
     /// Mean FLIP of the pictures as displayed, over the pixels that yarn covers in either.

@@ -3,94 +3,17 @@
 
 use crate::looks;
 use crate::pictures::Shot;
-use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tempfile::TempDir;
+pub use worsted::bench::cloth::{Cloth, Model};
+pub use worsted::bench::settings::{DEFAULT_SAMPLES, EVERY_FIBER};
 use worsted::error::Error;
 use worsted::frame::sampling::Sampling;
 use worsted::frame::{Renderer, Request};
-use worsted::io::bcc::write_bcc;
-use worsted::io::curves::{Basis, Curve, CurveSet};
 use worsted::io::error::FileError;
-use worsted::knit::params::KnitParams;
-use worsted::knit::stockinette::stockinette;
-use worsted::knit::tube::tube;
 use worsted::scene::Scene;
-use worsted::scene::file::{FabricTable, SceneFile};
 use worsted::vulkan::{Device, DeviceOptions};
-use worsted::yarn::params::YarnParams;
-use worsted::yarn::presets;
-
-/// Samples a pixel of `worsted render` where nothing is said.
-pub const DEFAULT_SAMPLES: u32 = 4;
-/// Draws every fiber and no core, at full detail: what level of detail approximates.
-pub const EVERY_FIBER: &str = "debug.fibers=every";
-/// How far from the middle of a fabric its front is looked for, in yarn diameters: over half a loop.
-const FRONT_DIAMETERS: f64 = 2.5;
-
-/// Generated fabric.
-#[derive(Clone, Copy, Debug)]
-pub enum Cloth {
-    /// A flat swatch.
-    Stockinette {
-        /// Loops of a row.
-        wales: u32,
-        /// Rows of loops.
-        courses: u32,
-    },
-    /// Knit in the round.
-    Tube {
-        /// Loops around.
-        wales: u32,
-        /// Rounds of loops.
-        courses: u32,
-    },
-    /// One straight yarn, which nothing but its own fibers shadows.
-    Straight,
-}
-
-impl Cloth {
-    /// Its pattern's name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Stockinette { .. } => "stockinette",
-            Self::Tube { .. } => "tube",
-            Self::Straight => "straight yarn",
-        }
-    }
-
-    fn knit(self, yarn_radius_mm: f64) -> Result<CurveSet, Error> {
-        Ok(match self {
-            Self::Stockinette { wales, courses } => {
-                stockinette(&KnitParams { wales, courses, yarn_radius_mm, ..KnitParams::swatch() })?
-            }
-            Self::Tube { wales, courses } => {
-                tube(&KnitParams { wales, courses, yarn_radius_mm, ..KnitParams::tube() })?
-            }
-            Self::Straight => straight(yarn_radius_mm),
-        })
-    }
-}
-
-/// Along X, longer than any close view is wide.
-fn straight(yarn_radius_mm: f64) -> CurveSet {
-    let points = (-100..=100).map(|i| DVec3::new(f64::from(i) * yarn_radius_mm, 0.0, 0.0)).collect();
-    let curve = Curve { points, closed: false };
-    CurveSet { basis: Basis::CatmullRom, up_axis: None, curves: vec![curve] }
-}
-
-/// A fabric as a scene file.
-pub struct Model {
-    /// The scene file.
-    pub path: PathBuf,
-    /// Its yarn.
-    pub yarn: YarnParams,
-    /// Height in mm of the fabric's front above the plane through its middle, along +Z.
-    pub front_mm: f64,
-    /// Largest distance in mm of a centre line from the Y axis.
-    pub reach_mm: f64,
-}
 
 /// The device, and a folder for models.
 pub struct Stage {
@@ -127,24 +50,7 @@ impl Stage {
     /// # Errors
     /// No such preset; files that cannot be written.
     pub fn model(&self, yarn: &str, cloth: Cloth) -> Result<Model, Error> {
-        let params =
-            presets::yarn(yarn).ok_or_else(|| Error::Arguments(format!("no yarn preset `{yarn}`")))?;
-        let curves = cloth.knit(params.outer_radius_mm())?;
-        let points = || curves.curves.iter().flat_map(|curve| &curve.points);
-        let near_mm = FRONT_DIAMETERS * 2.0 * params.outer_radius_mm();
-        let in_the_middle = points().filter(|p| p.x.abs() < near_mm && p.y.abs() < near_mm);
-        let front_mm = in_the_middle.fold(0.0, |most: f64, p| most.max(p.z)) + params.outer_radius_mm();
-        let reach_mm = points().fold(0.0, |most: f64, p| most.max(p.x.hypot(p.z)));
-
-        let model = format!("{yarn}-{}.bcc", cloth.name()).replace(' ', "-");
-        write_bcc(&self.folder.path().join(&model), &curves)?;
-        let mut file = SceneFile { fiber: looks::fiber(yarn), ..Default::default() };
-        file.yarn.insert("preset".into(), yarn.into());
-        file.fabric = vec![FabricTable { model, mm_per_unit: Some(1.0), ..Default::default() }];
-        let text = toml::to_string(&file).map_err(|e| Error::Failed(format!("scene file: {e}")))?;
-        let path = self.folder.path().join(format!("{yarn}-{}.toml", cloth.name()));
-        std::fs::write(&path, text).map_err(|e| FileError::io(&path, "write", &e))?;
-        Ok(Model { path, yarn: params, front_mm, reach_mm })
+        Model::write(self.folder.path(), yarn, cloth, looks::fiber(yarn))
     }
 
     /// Draws the scene at `path`, with scene keys overridden in the order given.

@@ -1,0 +1,125 @@
+//! `worsted render --max-error` and `--max-ms`: settings by what was measured on this device.
+
+use super::args::Budget;
+use super::job::{RenderJob, in_range};
+use crate::bench::against;
+use crate::bench::budget::{Facts, Promise, Wanted, pick};
+use crate::bench::cache::Cache;
+use crate::bench::fronts::{Fronts, look};
+use crate::bench::measure::measure;
+use crate::bench::references::reference;
+use crate::bench::truth::TruthSettings;
+use crate::bench::views::fiber_px;
+use crate::bench::work::work;
+use crate::error::Error;
+use crate::frame::Picture;
+use crate::frame::sampling::Sampling;
+use crate::io::picture::LinearImage;
+use crate::scene::Scene;
+use crate::vulkan::Device;
+use std::sync::Arc;
+
+/// Samples a pixel of the reference that a promise is verified by: as many as `worsted bench` has.
+const VERIFIED_BY: u64 = 64;
+/// Pictures of which the median is held against a promised time.
+const FRAMES: u32 = 3;
+
+/// What a picture may cost, and where that is known from.
+pub struct BudgetJob {
+    wanted: Wanted,
+    verify: bool,
+    cache: Cache,
+}
+
+impl BudgetJob {
+    /// Resolves arguments; none where nothing is asked for.
+    ///
+    /// # Errors
+    /// Arguments that make no sense.
+    pub fn new(args: &Budget) -> Result<Option<Self>, Error> {
+        let wanted = Wanted { error: args.max_error, ms: args.max_ms };
+        if let Some(error) = wanted.error {
+            in_range("--max-error", error, 0.0, 1.0)?;
+        }
+        if let Some(ms) = wanted.ms {
+            in_range("--max-ms", ms, 0.0, 1e9)?;
+        }
+        if wanted.error.is_none() && wanted.ms.is_none() {
+            if args.verify {
+                return Err(Error::Arguments("--verify: expected --max-error or --max-ms to verify".into()));
+            }
+            return Ok(None);
+        }
+        Ok(Some(Self { wanted, verify: args.verify, cache: Cache::new(args.cache.as_deref())? }))
+    }
+
+    /// Picks settings for the job's scene and puts them in place; says which and why.
+    ///
+    /// # Errors
+    /// Nothing measured that would tell, or nothing good enough.
+    pub fn settle(&self, job: &mut RenderJob, device: &Device) -> Result<Promise, Error> {
+        let fronts = Fronts::read(&self.cache, device.name(), device.driver())?;
+        let size = job.request.size;
+        let facts = Facts {
+            look: look(&job.scene),
+            fiber_px: fiber_px(&job.scene, size)?,
+            work: work(&job.scene, size),
+        };
+        let path = job.path.display().to_string();
+        let promise =
+            pick(&fronts, &facts, self.wanted, &path).map_err(|e| Error::Arguments(e.to_string()))?;
+        job.sets.extend(promise.setting.sets.iter().cloned());
+        job.scene = Scene::load(&job.path, &job.sets)?;
+        job.request.sampling = Sampling::new(promise.setting.samples).map_err(Error::Arguments)?;
+        if !job.common.quiet {
+            eprintln!(
+                "settings: {} ({}), FLIP at most {:.3}, at most {:.0} ms: measured on {}; a fiber is {:.2} pixels \
+                 wide here",
+                promise.setting.name,
+                promise.setting.as_options(),
+                promise.error,
+                promise.ms,
+                promise.measured_on,
+                facts.fiber_px
+            );
+        }
+        Ok(promise)
+    }
+
+    /// Whether the picture is what was asked for, where that is to be known; says what was measured.
+    ///
+    /// # Errors
+    /// A promise that was not kept; those of the reference and the device.
+    pub fn verify(&self, job: &RenderJob, device: &Arc<Device>, picture: &Picture) -> Result<(), Error> {
+        if !self.verify {
+            return Ok(());
+        }
+        let mut broken = Vec::new();
+        let mut hold = |what: &str, found: f64, most: f64| {
+            let kept = found <= most;
+            let said = format!("{what} {found:.4}, at most {most} was asked for");
+            if !job.common.quiet {
+                eprintln!("verified: {said}: {}", if kept { "kept" } else { "broken" });
+            }
+            if !kept {
+                broken.push(said);
+            }
+        };
+        if let Some(most) = self.wanted.ms {
+            let measured = measure(device, job.scene.clone(), job.request, FRAMES)?;
+            hold("wall time in ms", measured.wall_ms.median, most);
+        }
+        if let Some(most) = self.wanted.error {
+            let settings = TruthSettings { samples: VERIFIED_BY, floors: Vec::new() };
+            let truth = reference(&self.cache, &job.asked_for, picture.size, &settings, &mut |_| ())?;
+            let [width, height] = picture.size;
+            let drawn = LinearImage { width, height, pixels: picture.linear.clone() };
+            hold("FLIP", against(&drawn, &truth.picture.mean)?.error.covered.flip_mean, most);
+        }
+        if broken.is_empty() {
+            Ok(())
+        } else {
+            Err(Error::Failed(format!("not kept: {}", broken.join("; "))))
+        }
+    }
+}
