@@ -233,8 +233,12 @@ fn judge_table(c: &mut Collector, found: &[f64], exact: &[f64], range: f64, limi
     c.demand(most <= range * (1.0 + 2.0 * limit.worst), || format!("{most} is more than there can be"));
 }
 
-/// The smallest and largest tables that a scene may ask for, read as the device reads them. A coarser table is worse
-/// by no more than its texels are larger.
+/// Of the coarsest table that a scene may ask for: 8 texels across three plies, and two slices.
+const COARSEST_RMS: f64 = 0.1;
+
+/// The smallest and largest tables that a scene may ask for, read as the device reads them. A coarser table's error is
+/// that of linear interpolation, which grows as its texels' square, and at most [`COARSEST_RMS`]; its largest errors, at
+/// kinks, grow as its texels.
 fn sizes(yarn: &YarnParams, quick: bool) -> Vec<Row> {
     let count = if quick { 300 } else { 10_000 };
     let mut rows = Vec::new();
@@ -244,7 +248,7 @@ fn sizes(yarn: &YarnParams, quick: bool) -> Vec<Row> {
         let coarse = (f64::from(SelfShadowSize::default().across) / f64::from(across)).max(1.0);
         let limit = SELF_SHADOW_LIMIT;
         let limit = TableError {
-            rms: coarse * limit.rms,
+            rms: (coarse * coarse * limit.rms).min(COARSEST_RMS),
             p99: coarse * limit.p99,
             worst: (coarse * limit.worst).min(1.0),
         };
