@@ -10,7 +10,7 @@
 //! 5. [`frame`] uploads the scene once and draws pictures, one of [`passes`] after the other.
 //! 6. [`reference`](mod@reference) traces the same scene over its real fibers, slowly: the judge.
 //! 7. [`metrics`] says how far a picture is from another.
-//! 8. [`bench`] measures error against run time.
+//! 8. [`mod@bench`] measures error against run time.
 //! 9. [`mod@probe`] says what one function of the device makes of given numbers, and [`mod@stress`] whether that is
 //!    right up to the ends of every domain.
 //!

@@ -56,7 +56,7 @@ pub fn sky_gathered(toward: DVec3, outward: DVec3) -> DVec3 {
 }
 
 /// For every control point of every fabric what is open above it, fitted by least squares to what is visible along
-/// [`DIRECTIONS`] rays from the centre line: constant, and slope by direction in world space. Of tubes so many in one
+/// rays from the centre line: constant, and slope by direction in world space. Of tubes so many in one
 /// place that no search tree holds them nothing is hidden.
 pub fn bake_skies(fabrics: &[SkyYarns<'_>]) -> Vec<Vec<[f16; 4]>> {
     let Some(tubes) = Tubes::new(fabrics) else {
