@@ -122,12 +122,32 @@ float visible_from(vec2 place) {
     return distance_occlusion(yarn.occlusion, length(place));
 }
 
+// Share of ambient light that comes through to a fiber.
+float visible(Strand strand) {
+    if (!DISTANCE_OCCLUSION && !TEXTURE_OCCLUSION) {
+        return 1.0;
+    }
+    return mix(visible_from(strand.near_place), visible_from(strand.far_place), strand.far_share);
+}
+
+// A place in the cross-section as a direction out of the yarn.
+vec3 outward_at(Strand strand, vec2 place) {
+    return place.x * strand.ply_normal + place.y * strand.ply_binormal;
+}
+
 // Share of ambient light that comes through to a place in the cross-section and is reflected from there.
 float reflected_from(Strand strand, vec2 place) {
     float distance = length(place);
-    vec3 outward = place.x * strand.ply_normal + place.y * strand.ply_binormal;
-    float facing = dot(strand.toward, outward) / max(distance, 1e-6);
+    float facing = dot(strand.toward, outward_at(strand, place)) / max(distance, 1e-6);
     return reflected_occlusion(visible_from(place), yarn.occlusion_lean, distance, facing);
+}
+
+// Share of ambient light that comes through to a fiber and is reflected.
+float reflected_share(Strand strand) {
+    if (!DISTANCE_OCCLUSION && !TEXTURE_OCCLUSION) {
+        return 1.0;
+    }
+    return mix(reflected_from(strand, strand.near_place), reflected_from(strand, strand.far_place), strand.far_share);
 }
 
 // What other yarns leave open of the sky, between the piece's two inner control points.
@@ -175,25 +195,17 @@ vec3 scatter(Strand strand, vec3 to_light, vec3 to_eye) {
 // Radiance toward the eye of light from everywhere (Wu & Yuksel 2019, Eq. 7 and 8). Where it differs by direction
 // each lobe gathers it blurred by the lobe's own width: R from the cone that mirrors the view, TT from behind. What
 // comes from behind came through the yarn.
-vec3 ambient(Strand strand, vec3 to_eye, float visibility) {
+vec3 ambient(Strand strand, vec3 to_eye) {
     vec3 sum = vec3(0.0);
     vec3 reflected_light = frame.ambient_radiance.rgb;
     vec3 transmitted_light = reflected_light;
     vec3 diffuse_light = reflected_light;
-    float behind = visibility;
-    if (SELF_SHADOW && PHYSICAL && SPECULAR) {
-        behind = through_yarn(strand, -to_eye);
-    }
-    if (DISTANCE_OCCLUSION || TEXTURE_OCCLUSION) {
-        visibility = mix(reflected_from(strand, strand.near_place), reflected_from(strand, strand.far_place),
-                         strand.far_share);
-    }
+    float visibility = reflected_share(strand);
+    vec4 sky = vec4(1.0, 0.0, 0.0, 0.0);
     if (YARN_OCCLUSION) {
-        vec4 sky = open_sky(strand);
+        sky = open_sky(strand);
         vec2 place = mix(strand.near_place, strand.far_place, strand.far_share);
-        vec3 outward = place.x * strand.ply_normal + place.y * strand.ply_binormal;
-        visibility *= sky_toward(sky, sky_gathered(strand.toward, outward));
-        behind *= sky_toward(sky, -to_eye);
+        visibility *= sky_toward(sky, sky_gathered(strand.toward, outward_at(strand, place)));
     }
     if (ENVIRONMENT) {
         diffuse_light = environment_diffuse(frame.environment, strand.normals, strand.side, strand.toward);
@@ -214,12 +226,16 @@ vec3 ambient(Strand strand, vec3 to_eye, float visibility) {
         }
         vec3 reflected, transmitted;
         ambient_scattering(strand.tangent, to_eye, scattering, reflected, transmitted);
+        float behind = SELF_SHADOW ? through_yarn(strand, -to_eye) : visible(strand);
+        if (YARN_OCCLUSION) {
+            behind *= sky_toward(sky, -to_eye);
+        }
         sum += reflected * reflected_light * visibility + transmitted * transmitted_light * behind;
     }
     return sum;
 }
 
-vec3 shade(Strand strand, vec3 to_eye, float visibility) {
+vec3 shade(Strand strand, vec3 to_eye) {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < LIGHT_COUNT; ++i) {
         Arriving arriving = LOCAL_LIGHTS ? light_at(lights[i], strand.position)
@@ -232,7 +248,7 @@ vec3 shade(Strand strand, vec3 to_eye, float visibility) {
         }
     }
     if (AMBIENT) {
-        sum += ambient(strand, to_eye, visibility);
+        sum += ambient(strand, to_eye);
     }
     // Close to a light there is no limit. `min` might hide what is no number.
     return mix(sum, vec3(RADIANCE_MAX), greaterThan(sum, vec3(RADIANCE_MAX)));
@@ -249,16 +265,12 @@ float rounding(vec3 normal, vec3 to_eye) {
 
 vec4 strand_color(Strand strand) {
     vec3 to_eye = direction_or(frame.eye_world.xyz - strand.position, vec3(0.0, 0.0, 1.0));
-    float visibility = 1.0;
-    if (DISTANCE_OCCLUSION || TEXTURE_OCCLUSION) {
-        visibility = mix(visible_from(strand.near_place), visible_from(strand.far_place), strand.far_share);
-    }
     vec3 normal = strand.normals.x * strand.side + strand.normals.y * strand.toward;
     vec3 color;
     switch (DEBUG_VIEW) {
         case VIEW_NORMAL: color = 0.5 + 0.5 * normal; break;
         case VIEW_TANGENT: color = 0.5 + 0.5 * strand.tangent; break;
-        case VIEW_OCCLUSION: color = vec3(visibility); break;
+        case VIEW_OCCLUSION: color = vec3(visible(strand)); break;
         case VIEW_PLY: color = ply_color(strand.ply); break;
         case VIEW_KIND: color = KIND_COLORS[min(strand.shown, KIND_CORE)] * rounding(normal, to_eye); break;
         case VIEW_FRAME:
@@ -266,7 +278,7 @@ vec4 strand_color(Strand strand) {
         case VIEW_LEVEL_OF_DETAIL:
             color = unpackUnorm4x8(strand.shown).rgb * rounding(normal, to_eye);
             break;
-        default: color = shade(strand, to_eye, visibility); break;
+        default: color = shade(strand, to_eye); break;
     }
     return vec4(color, 1.0);
 }
