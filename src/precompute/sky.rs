@@ -102,7 +102,7 @@ struct Place {
 /// One for each control point. Points that no piece touches are at their curve's start.
 fn places(fabric: usize, yarns: &SkyYarns<'_>) -> Vec<Place> {
     let strands = yarns.strands;
-    let lengths = strands.pieces.iter().fold(vec![0.0; strands.period_counts.len()], |mut sums, piece| {
+    let lengths = strands.pieces.iter().fold(vec![0.0; strands.closed.len()], |mut sums, piece| {
         sums[piece.curve] += piece.length_mm;
         sums
     });
@@ -126,7 +126,7 @@ fn places(fabric: usize, yarns: &SkyYarns<'_>) -> Vec<Place> {
                 let place = &mut places[piece.first_point + k];
                 place.curve = piece.curve;
                 place.length_mm = piece.length_start_mm + shares[k] * piece.length_mm;
-                place.closed_mm = (strands.period_counts[piece.curve] > 0).then_some(lengths[piece.curve]);
+                place.closed_mm = strands.closed[piece.curve].then_some(lengths[piece.curve]);
             }
         }
     }

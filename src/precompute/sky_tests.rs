@@ -107,6 +107,21 @@ fn places_between_those_looked_from_have_skies_between_theirs() {
     }
 }
 
+/// Periods of very long open yarn wrap as those of closed yarn do: it is not closed by that.
+#[test]
+fn the_ends_of_open_yarn_hide_each_other_however_long_its_fibers_migrate() {
+    let out = (0..=40).map(|i| DVec3::new(0.5 * f64::from(i), 0.0, 0.0));
+    let back = (0..=40).rev().map(|i| DVec3::new(0.5 * f64::from(i), 0.0, 1.2));
+    let curve = Curve { points: out.chain(back).collect(), closed: false };
+    let usual = presets::yarn("cotton1").unwrap();
+    let mut migrating = usual.clone();
+    (migrating.fiber_pitch_mm, migrating.migration_rate) = (Some(1e-6), 1.0);
+    let baked = |yarn| strands(std::slice::from_ref(&curve), Basis::CatmullRom, yarn, 1);
+    let (usual, migrating) = (baked(&usual), baked(&migrating));
+    assert!(usual.period_counts == [0] && migrating.period_counts != [0]);
+    assert_eq!(skies(&usual), skies(&migrating));
+}
+
 #[test]
 fn points_on_top_of_each_other_give_numbers() {
     let curve = Curve { points: vec![DVec3::ONE; 3000], closed: false };

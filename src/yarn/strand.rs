@@ -40,6 +40,8 @@ pub struct Strands {
     pub pieces: Vec<Piece>,
     /// Control points as given, without phantom ones.
     pub control_point_count: usize,
+    /// For each curve, whether its last point joins its first.
+    pub closed: Vec<bool>,
     /// For each curve, how many migrations of the fibers' radius it closes after; an open one [`MOST_MIGRATIONS`]
     /// where it has more than that, and 0 where it has not.
     pub period_counts: Vec<u32>,
@@ -125,6 +127,7 @@ pub fn strands(curves: &[Curve], basis: Basis, yarn: &YarnParams, seed: u64) -> 
         normals: Vec::new(),
         pieces: Vec::new(),
         control_point_count: curves.iter().map(|c| c.points.len()).sum(),
+        closed: curves.iter().map(|curve| curve.closed).collect(),
         period_counts: vec![0; curves.len()],
     };
     for (index, curve) in curves.iter().enumerate() {
