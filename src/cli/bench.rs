@@ -1,6 +1,7 @@
 //! `worsted bench`.
 
-use super::args::{Bench, BenchCloth, Common};
+use super::args::Common;
+use super::bench_args::{Bench, BenchCloth};
 use super::job::parse_size;
 use super::open_device;
 use super::output::write_text;
@@ -36,7 +37,7 @@ const QUICK: (&str, u64) = ("160x120", 16);
 /// Arguments that make no sense; those of scenes, references, the device and files.
 pub fn run(args: &Bench, common: &Common) -> Result<(), Error> {
     check_samples(&args.samples)?;
-    let cache = Cache::new(args.cache.as_deref())?;
+    let cache = Cache::new(args.cache.folder.as_deref())?;
     let (size, samples) = if args.quick { QUICK } else { USUAL };
     let size = parse_size(args.size.as_deref().unwrap_or(size))?;
     let all = if args.quick { quick_grid() } else { grid(&args.samples) };

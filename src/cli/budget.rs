@@ -1,6 +1,6 @@
 //! `worsted render --max-error` and `--max-ms`: settings by what was measured on this device.
 
-use super::args::Budget;
+use super::bench_args::Budget;
 use super::job::{RenderJob, in_range};
 use crate::bench::against;
 use crate::bench::budget::{Facts, Promise, Wanted, pick};
@@ -50,7 +50,7 @@ impl BudgetJob {
             }
             return Ok(None);
         }
-        Ok(Some(Self { wanted, verify: args.verify, cache: Cache::new(args.cache.as_deref())? }))
+        Ok(Some(Self { wanted, verify: args.verify, cache: Cache::new(args.cache.folder.as_deref())? }))
     }
 
     /// Picks settings for the job's scene and puts them in place; says which and why.
@@ -69,7 +69,8 @@ impl BudgetJob {
         let promise =
             pick(&fronts, &facts, self.wanted, &path).map_err(|e| Error::Arguments(e.to_string()))?;
         job.sets.extend(promise.setting.sets.iter().cloned());
-        job.scene = Scene::load(&job.path, &job.sets)?;
+        let settled = Scene::load(&job.path, &job.sets)?;
+        job.asked_for = Some(std::mem::replace(&mut job.scene, settled));
         job.request.sampling = Sampling::new(promise.setting.samples).map_err(Error::Arguments)?;
         if !job.common.quiet {
             eprintln!(
@@ -110,8 +111,9 @@ impl BudgetJob {
             hold("wall time in ms", measured.wall_ms.median, most);
         }
         if let Some(most) = self.wanted.error {
+            let asked_for = job.asked_for.as_ref().unwrap_or(&job.scene);
             let settings = TruthSettings { samples: VERIFIED_BY, floors: Vec::new() };
-            let truth = reference(&self.cache, &job.asked_for, picture.size, &settings, &mut |_| ())?;
+            let truth = reference(&self.cache, asked_for, picture.size, &settings, &mut |_| ())?;
             let [width, height] = picture.size;
             let drawn = LinearImage { width, height, pixels: picture.linear.clone() };
             hold("FLIP", against(&drawn, &truth.picture.mean)?.error.covered.flip_mean, most);

@@ -15,8 +15,8 @@ use std::path::{Path, PathBuf};
 pub struct RenderJob {
     /// The scene, loaded.
     pub scene: Scene,
-    /// The same, whatever a budget does to the other.
-    pub asked_for: Scene,
+    /// The same as it was before a budget changed it.
+    pub asked_for: Option<Scene>,
     /// Where it was loaded from.
     pub path: PathBuf,
     /// With these assignments.
@@ -56,7 +56,7 @@ impl RenderJob {
         let sets = assignments(&args.scene, args.view.camera.as_deref())?;
         let scene = Scene::load(&args.scene.path, &sets)?;
         Ok(Self {
-            asked_for: scene.clone(),
+            asked_for: None,
             scene,
             path: args.scene.path.clone(),
             sets,

@@ -2,6 +2,7 @@
 
 pub mod args;
 mod bench;
+pub mod bench_args;
 mod budget;
 mod compare;
 mod doctor;

@@ -2,7 +2,7 @@
 
 use super::stats::Stats;
 use crate::precompute::core_texture::{CoreTexture, bake_core};
-use crate::precompute::occlusion_fit::{fit_distance_occlusion, fit_occlusion_lean};
+use crate::precompute::occlusion_fit::{OcclusionFit, fit_occlusion};
 use crate::precompute::occlusion_table::{OCCLUSION_ACROSS, OcclusionTable, bake_occlusion_table};
 use crate::precompute::optical_depth::CrossSection;
 use crate::precompute::scattering_table::{self, ScatteringTable};
@@ -13,16 +13,14 @@ use crate::scene::features::Features;
 use crate::scene::{Fabric, Scene};
 use crate::yarn::density::extinction_per_mm;
 use crate::yarn::table::Fiber;
-use glam::DVec4;
 use half::f16;
+use std::cell::LazyCell;
 use std::time::Instant;
 
 /// A fabric's tables; absent where nothing reads them.
 pub struct Bakes {
-    /// Visibility as a cubic of the distance from the yarn's centre.
-    pub occlusion: Option<DVec4>,
-    /// How much more of it comes from outside than from the other side, likewise; 0 where nothing is occluded.
-    pub occlusion_lean: DVec4,
+    /// Ambient light by the distance from the yarn's centre.
+    pub occlusion: Option<OcclusionFit>,
     /// What core fibers show.
     pub core: Option<CoreTexture>,
     /// Factors of the physical model's lobes.
@@ -52,20 +50,20 @@ impl Bakes {
         let scattering = || scattering_table::bake(&fabric.fiber.scattering(), quality.scattering_entries);
         let yarn = &fabric.yarn;
         let extinction_per_mm = scene.file.shading.extinction_scale * extinction_per_mm(yarn);
-        let distance = || fit_distance_occlusion(yarn, extinction_per_mm);
-        let leaning = || fit_occlusion_lean(yarn, extinction_per_mm);
-        let occluded = features.ambient && (features.distance_occlusion || features.texture_occlusion);
+        let section = LazyCell::new(|| CrossSection::new(yarn));
+        let distance = || fit_occlusion(&section, extinction_per_mm);
+        // What leans outward is by distance in either mode, but nothing shows it without ambient light.
+        let by_distance = features.distance_occlusion || features.texture_occlusion && features.ambient;
         let texels = quality.occlusion_texels.unwrap_or(OCCLUSION_ACROSS);
         let texture = || bake_occlusion_table(yarn, extinction_per_mm, texels);
         let size = quality
             .self_shadow_texels
             .map_or_else(SelfShadowSize::default, |across| SelfShadowSize { across, slices: across / 4 });
-        let shadow = || shadow_radius_mm(&CrossSection::new(yarn), extinction_per_mm);
+        let shadow = || shadow_radius_mm(&section, extinction_per_mm);
         let hides = features.shadow_map || features.yarn_occlusion;
         let depth = || bake_self_shadow(yarn, size);
         Self {
-            occlusion: features.distance_occlusion.then(|| timed(stats, "distance_occlusion", distance)),
-            occlusion_lean: if occluded { timed(stats, "occlusion_lean", leaning) } else { DVec4::ZERO },
+            occlusion: by_distance.then(|| timed(stats, "distance_occlusion", distance)),
             occlusion_texture: features.texture_occlusion.then(|| timed(stats, "occlusion_texture", texture)),
             self_shadow: features.self_shadow.then(|| timed(stats, "self_shadow", depth)),
             shadow_radius_mm: if hides { shadow() } else { yarn.outer_radius_mm() },

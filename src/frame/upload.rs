@@ -7,6 +7,7 @@ use crate::gpu_types::{ControlPoint, Fiber, Frame, LENGTH_STRIPE, Segment, Yarn}
 use crate::math::frame::octahedral_from_normal;
 use crate::passes::fibers::FabricBuffers;
 use crate::precompute::environment::{Environment, project_environment};
+use crate::precompute::occlusion_fit::OcclusionFit;
 use crate::precompute::scattering_table::azimuthal_constants;
 use crate::scene::camera::Camera;
 use crate::scene::file::QualityTable;
@@ -84,7 +85,8 @@ pub fn yarn(fabric: &Fabric, quality: &QualityTable, bakes: &Bakes, first_piece:
     let (hair_share_mean, hair_share_sd) = spread(flyaways.hair_share);
     let (hair_angle_mean, hair_angle_sd) = spread(flyaways.hair_angle);
     // Without occlusion nothing reads it; 1 everywhere is what that means.
-    let occlusion = bakes.occlusion.unwrap_or(DVec4::X);
+    let open = OcclusionFit { visibility: DVec4::X, lean: DVec4::ZERO };
+    let occlusion = bakes.occlusion.unwrap_or(open);
     let fiber = &fabric.fiber;
     let scattering = fiber.scattering();
     let (k_tt, n_tt) = azimuthal_constants(&scattering);
@@ -128,8 +130,8 @@ pub fn yarn(fabric: &Fabric, quality: &QualityTable, bakes: &Bakes, first_piece:
         core_thickness: core.map_or([0.0; 8], |core| core.thickness.map(|t| t as f32)),
         slot_stride: slot_stride(params.fiber_count()),
         reach: flyaways.reach_mm as f32,
-        occlusion: occlusion.as_vec4().to_array(),
-        occlusion_lean: bakes.occlusion_lean.as_vec4().to_array(),
+        occlusion: occlusion.visibility.as_vec4().to_array(),
+        occlusion_lean: occlusion.lean.as_vec4().to_array(),
         k_tt: k_tt as f32,
         n_tt: n_tt as f32,
         scattering_entries: quality.scattering_entries,

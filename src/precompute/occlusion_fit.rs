@@ -1,7 +1,6 @@
 //! Ambient occlusion by distance from the yarn's centre; twin of `glsl/shading/occlusion.glsl`.
 
 use super::optical_depth::{CrossSection, optical_depth_mm};
-use crate::yarn::params::YarnParams;
 use glam::{DMat4, DVec2, DVec4};
 use std::f64::consts::TAU;
 
@@ -10,30 +9,35 @@ const DISTANCES: u32 = 33;
 const AROUND: u32 = 16;
 const DIRECTIONS: u32 = 48;
 
+/// Ambient light by distance from a yarn's centre: cubics in (distance / outer radius), constant term first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OcclusionFit {
+    /// Share of it that arrives. Where the cubic leaves [0, 1] the shader clamps it.
+    pub visibility: DVec4,
+    /// How much more of it comes from outside than from the other side: 0 where both are alike.
+    pub lean: DVec4,
+}
+
 /// Share of ambient light that reaches `position` (mm, ply 0 at (ply offset, 0)): the mean over
 /// in-plane directions of exp(-extinction x depth). Wu & Yuksel 2019, Sec. 4.2.
 pub fn ambient_visibility(section: &CrossSection<'_>, position: DVec2, extinction_per_mm: f64) -> f64 {
-    let visibility = |i: u32| {
-        let direction = DVec2::from_angle(TAU * (f64::from(i) + 0.5) / f64::from(DIRECTIONS));
-        (-extinction_per_mm * optical_depth_mm(section, position, direction)).exp()
-    };
-    (0..DIRECTIONS).map(visibility).sum::<f64>() / f64::from(DIRECTIONS)
+    seen(section, position, DVec2::X, extinction_per_mm).x
 }
 
-/// How much more of it comes from `outward` (unit) than from the other side: twice the mean of the same times the
-/// cosine of the angle from there, so that visibility by direction is about its mean plus this times that cosine.
-fn ambient_lean(section: &CrossSection<'_>, position: DVec2, outward: DVec2, extinction_per_mm: f64) -> f64 {
-    let visibility = |i: u32| {
+/// That, and how much more of it comes from `outward` (unit) than from the other side: twice the mean of the same times
+/// the cosine of the angle from there, so that visibility by direction is about its mean plus this times that cosine.
+fn seen(section: &CrossSection<'_>, position: DVec2, outward: DVec2, extinction_per_mm: f64) -> DVec2 {
+    let along = |i: u32| {
         let direction = DVec2::from_angle(TAU * (f64::from(i) + 0.5) / f64::from(DIRECTIONS));
-        let depth = optical_depth_mm(section, position, direction);
-        direction.dot(outward) * (-extinction_per_mm * depth).exp()
+        let visibility = (-extinction_per_mm * optical_depth_mm(section, position, direction)).exp();
+        visibility * DVec2::new(1.0, 2.0 * direction.dot(outward))
     };
-    2.0 * (0..DIRECTIONS).map(visibility).sum::<f64>() / f64::from(DIRECTIONS)
+    (0..DIRECTIONS).map(along).sum::<DVec2>() / f64::from(DIRECTIONS)
 }
 
 /// Mean of `of`, given a place in mm and the unit direction to it from the yarn's centre, over the circle at `share` of
 /// the outer radius.
-fn radial_average(section: &CrossSection<'_>, share: f64, of: &impl Fn(DVec2, DVec2) -> f64) -> f64 {
+fn radial_average(section: &CrossSection<'_>, share: f64, of: &impl Fn(DVec2, DVec2) -> DVec2) -> DVec2 {
     let yarn = section.yarn;
     let radius = share * yarn.outer_radius_mm();
     let at = |i: u32| {
@@ -42,33 +46,25 @@ fn radial_average(section: &CrossSection<'_>, share: f64, of: &impl Fn(DVec2, DV
         let outward = DVec2::from_angle(angle);
         of(radius * outward, outward)
     };
-    (0..AROUND).map(at).sum::<f64>() / f64::from(AROUND)
+    (0..AROUND).map(at).sum::<DVec2>() / f64::from(AROUND)
 }
 
-/// Cubic in (distance / outer radius), constant term first, least-squares fitted to the radial average
-/// of the visibility (Wu & Yuksel 2019, Sec. 4.2). Where the cubic leaves [0, 1] the shader clamps it.
-pub fn fit_distance_occlusion(yarn: &YarnParams, extinction_per_mm: f64) -> DVec4 {
-    let section = CrossSection::new(yarn);
-    fit(&section, |position, _| ambient_visibility(&section, position, extinction_per_mm))
-}
-
-/// The same of how much more ambient light comes from outside than from the other side: 0 where both are alike.
-pub fn fit_occlusion_lean(yarn: &YarnParams, extinction_per_mm: f64) -> DVec4 {
-    let section = CrossSection::new(yarn);
-    fit(&section, |position, outward| ambient_lean(&section, position, outward, extinction_per_mm))
-}
-
-fn fit(section: &CrossSection<'_>, of: impl Fn(DVec2, DVec2) -> f64) -> DVec4 {
-    let (mut normal, mut right) = (DMat4::ZERO, DVec4::ZERO);
+/// Least-squares fits to the radial averages (Wu & Yuksel 2019, Sec. 4.2).
+pub fn fit_occlusion(section: &CrossSection<'_>, extinction_per_mm: f64) -> OcclusionFit {
+    let (mut normal, mut visible, mut leaning) = (DMat4::ZERO, DVec4::ZERO, DVec4::ZERO);
     for i in 0..DISTANCES {
         let d = f64::from(i) / f64::from(DISTANCES - 1);
         let powers = DVec4::new(1.0, d, d * d, d * d * d);
         let outer =
             DMat4::from_cols(powers * powers.x, powers * powers.y, powers * powers.z, powers * powers.w);
         normal += outer;
-        right += powers * radial_average(section, d, &of);
+        let at = |position, outward| seen(section, position, outward, extinction_per_mm);
+        let mean = radial_average(section, d, &at);
+        visible += powers * mean.x;
+        leaning += powers * mean.y;
     }
-    normal.inverse() * right
+    let inverse = normal.inverse();
+    OcclusionFit { visibility: inverse * visible, lean: inverse * leaning }
 }
 
 /// The fitted visibility at `distance`, a share of the outer radius.
@@ -97,11 +93,12 @@ mod tests {
         let yarn = presets::yarn("worsted_3ply").unwrap();
         let extinction = extinction_per_mm(&yarn);
         let section = CrossSection::new(&yarn);
-        let seen = |position: DVec2, _: DVec2| ambient_visibility(&section, position, extinction);
-        let cubic = fit_distance_occlusion(&yarn, extinction);
+        let seen =
+            |position: DVec2, _: DVec2| DVec2::splat(ambient_visibility(&section, position, extinction));
+        let cubic = fit_occlusion(&section, extinction).visibility;
         for i in 0..=20 {
             let d = f64::from(i) / 20.0;
-            let (fitted, exact) = (distance_occlusion(cubic, d), radial_average(&section, d, &seen));
+            let (fitted, exact) = (distance_occlusion(cubic, d), radial_average(&section, d, &seen).x);
             assert!((fitted - exact).abs() < 0.06, "at {d}: {fitted} vs {exact}");
         }
         assert!(distance_occlusion(cubic, 0.0) < distance_occlusion(cubic, 1.0));
@@ -121,7 +118,7 @@ mod tests {
         for name in ["worsted_3ply", "rayon1"] {
             let yarn = presets::yarn(name).unwrap();
             let (section, extinction) = (CrossSection::new(&yarn), extinction_per_mm(&yarn));
-            let lean = fit_occlusion_lean(&yarn, extinction);
+            let lean = fit_occlusion(&section, extinction).lean;
             let (mut worst, mut without) = (0f64, 0f64);
             for distance in [0.0, 0.3, 0.6, 0.9, 1.0] {
                 for viewer in 0..8 {
@@ -134,11 +131,11 @@ mod tests {
                             let depth = optical_depth_mm(&section, position, toward);
                             (0.5 * phi).cos() * (-extinction * depth).exp()
                         };
-                        (0..n).map(light).sum::<f64>() * TAU / f64::from(n) / 4.0
+                        DVec2::splat((0..n).map(light).sum::<f64>() * TAU / f64::from(n) / 4.0)
                     };
-                    let exact = radial_average(&section, distance, &lobe);
-                    let all = |position: DVec2, _: DVec2| ambient_visibility(&section, position, extinction);
-                    let all = radial_average(&section, distance, &all);
+                    let exact = radial_average(&section, distance, &lobe).x;
+                    let all = |position, outward| seen(&section, position, outward, extinction);
+                    let all = radial_average(&section, distance, &all).x;
                     let found = reflected_occlusion(all, lean, distance, viewer.cos());
                     worst = worst.max((found - exact).abs());
                     without = without.max((all - exact).abs());

@@ -8,7 +8,7 @@ use glam::DVec2;
 use std::sync::Arc;
 use worsted::error::Error;
 use worsted::frame::Picture;
-use worsted::precompute::occlusion_fit::{distance_occlusion, fit_distance_occlusion};
+use worsted::precompute::occlusion_fit::{distance_occlusion, fit_occlusion};
 use worsted::precompute::occlusion_table::{
     OCCLUSION_ACROSS, bake_occlusion_table, occlusion_place, texture_occlusion,
 };
@@ -53,7 +53,7 @@ fn pictures(yarn: &YarnParams) -> ([Picture; 4], String) {
     let extinction = extinction_per_mm(yarn);
     let table = bake_occlusion_table(yarn, extinction, OCCLUSION_ACROSS);
     let cross_section = CrossSection::new(yarn);
-    let cubic = fit_distance_occlusion(yarn, extinction);
+    let cubic = fit_occlusion(&cross_section, extinction).visibility;
     let by_place = |place: DVec2| texture_occlusion(&table, occlusion_place(place, table.across));
     let by_distance = |place: DVec2| distance_occlusion(cubic, place.length());
     let differs = |place: DVec2| by_distance(place) - by_place(place);
