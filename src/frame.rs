@@ -121,7 +121,7 @@ impl Renderer {
             shadow_map: map.image.clone(),
         };
         let mut shadow_map = ShadowMapPass::new(map, shadow_views.clone(), TUBE_CORNERS);
-        let mut fibers = FibersPass::new(device, buffers)?.with_shaders(shaders);
+        let mut fibers = FibersPass::new(device, buffers, samples)?.with_shaders(shaders);
         let mut stats = Stats::new(device, &scene, &request);
         let started = Instant::now();
         let environment = upload::environment(&scene);
@@ -143,7 +143,7 @@ impl Renderer {
                 skies: skies.as_ref().map(|skies| &skies[index][..]),
             };
             let buffers = upload::fabric_buffers(device, &scene, fabric, &baked, first_piece)?;
-            fibers.add_fabric(&buffers, features, samples)?;
+            fibers.add_fabric(&buffers, features)?;
             let pieces = fabric.strands.pieces.len() as u32;
             if let Some(sets) = fibers.sets(index).filter(|_| light_room.views > 0) {
                 shadow_map.add_fabric(device, &features, &fibers.layouts(), sets, pieces)?;
@@ -219,9 +219,8 @@ impl Renderer {
     /// Those of the device.
     pub fn render(&mut self, progress: &dyn Fn(f64)) -> Result<Picture, VulkanError> {
         let camera = self.camera();
-        let (scene, view, is_cpu) = (&self.scene, (&camera, &self.request), self.device.is_cpu());
-        self.fibers
-            .plan(|fabric, strands| plan::draw_plan(scene, &scene.fabrics[fabric], view, strands, is_cpu));
+        let planned = plan::Planned::new(&self.scene, &camera, &self.request, self.device.is_cpu());
+        self.fibers.plan(|fabric, strands, manner| planned.draws(fabric, strands, manner))?;
         let frames = self.request.sampling.frames();
         let mut taken = Taken::NOTHING;
         let mut passes = HashMap::new();

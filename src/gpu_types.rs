@@ -143,6 +143,8 @@ pub struct Yarn {
     pub core_above: f32,
     /// Farthest fiber of each of the core's levels (`CORE_LEVELS` in `glsl/shared/constants.glsl`), as a share of the ellipse.
     pub core_thickness: [f32; 8],
+    /// Distance from the ply's centre within which each level hides what lies behind, likewise.
+    pub core_opaque: [f32; 8],
     /// Between the fibers of successive slots: [`crate::yarn::detail::fiber_of_slot`].
     pub slot_stride: u32,
     /// Distance from the yarn's centre that nothing exceeds.
@@ -243,8 +245,8 @@ pub struct Frame {
     pub index: u32,
     /// Between the places of a pixel at which one thing is shaded.
     pub shading_spacing_px: f32,
-    /// Not used.
-    pub padding: f32,
+    /// Width of a ply below which it is shaded at its vertices.
+    pub vertex_shaded_px: f32,
 }
 
 /// Counted by the control stage.

@@ -17,4 +17,7 @@ vec4 strip_normals(float across) {
     return vec4(across, z, 2.0 * across * z, z * z - across * across);
 }
 
+// Their mean over the strip.
+const vec4 STRIP_MEAN_NORMALS = vec4(0.0, 0.785398163, 0.0, 0.333333333);
+
 #endif

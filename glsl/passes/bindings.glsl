@@ -15,7 +15,7 @@ layout(std430, set = 1, binding = 1) readonly buffer SegmentBlock { Segment segm
 layout(std430, set = 1, binding = 2) readonly buffer FiberBlock { Fiber fibers[]; };
 layout(std430, set = 1, binding = 3) readonly buffer YarnBlock { Yarn yarn; };
 
-// The core texture: glsl/passes/surface.glsl reads it. Layer ply * CORE_LEVELS + level; one fiber last.
+// The core texture: glsl/passes/surface.glsl reads it. Layer ply * CORE_LEVELS + level.
 layout(set = 1, binding = 4) uniform sampler2DArray core_normals; // means of sin phi, cos phi, sin 2 phi, cos 2 phi
 layout(set = 1, binding = 5) uniform sampler2DArray core_shape;   // coverage, height, slope
 layout(set = 1, binding = 6) uniform sampler2DArray core_spread;  // mean squares and product of the slope, mean square of the height

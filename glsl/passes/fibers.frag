@@ -13,6 +13,7 @@ layout(location = 4) flat in uvec3 fragment_fiber;  // index, what a debug view 
 layout(location = 5) noperspective in float fragment_across; // -1 to 1 inside
 layout(location = 6) centroid in vec3 fragment_normal;
 layout(location = 7) centroid in vec3 fragment_binormal;
+layout(location = 8) centroid in vec3 fragment_radiance;
 
 layout(location = 0) out vec4 radiance;
 
@@ -24,6 +25,10 @@ vec2 round_place() {
 }
 
 void main() {
+    if (AT_VERTICES) {
+        radiance = vec4(fragment_radiance, 1.0);
+        return;
+    }
     Strand strand;
     strand.position = fragment_position;
     strand.tangent = direction_or(fragment_tangent, vec3(1.0, 0.0, 0.0));

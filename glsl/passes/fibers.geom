@@ -4,6 +4,8 @@
 #include "bindings.glsl"
 #include "../lib/strip.glsl"
 #include "../yarn/breaks.glsl"
+#include "../yarn/core.glsl"
+#include "level.glsl"
 
 layout(lines) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -16,6 +18,7 @@ layout(location = 4) in ivec4 joining[];
 layout(location = 5) in vec3 ply_normal[];
 layout(location = 6) in vec3 ply_binormal[];
 layout(location = 7) in uint piece[];
+layout(location = 8) in vec3 vertex_radiance[];
 
 // Centroid: a fiber is often thinner than a pixel, whose centre then lies outside its triangles.
 layout(location = 0) centroid out vec3 fragment_position;
@@ -26,6 +29,15 @@ layout(location = 4) flat out uvec3 fragment_fiber;  // index, what a debug view
 layout(location = 5) noperspective out float fragment_across; // -1 to 1
 layout(location = 6) centroid out vec3 fragment_normal;       // of the ply, and its binormal
 layout(location = 7) centroid out vec3 fragment_binormal;
+layout(location = 8) centroid out vec3 fragment_radiance;     // where it is shaded at its vertices
+
+// Whether the core of its own ply hides this end.
+bool hidden(int end, vec3 to_eye) {
+    vec2 from_ply = section_place[end].xy - vec2(yarn.ply_offset, 0.0);
+    vec2 toward = vec2(dot(to_eye, ply_normal[end]), dot(to_eye, ply_binormal[end]));
+    float margin = tangent_world[end].w * yarn.fiber_radius / yarn.ellipse_short;
+    return core_hides(from_ply, toward, detail_at(pixel_mm_at(position_world[end])).level, margin, yarn);
+}
 
 void main() {
     // Which end of the line comes first along the yarn is the driver's choice.
@@ -36,8 +48,15 @@ void main() {
     if (CORE_FIBERS && max(tangent_world[0].w, tangent_world[1].w) <= 0.0) {
         return;
     }
+    vec3 to_eyes[2];
     for (int end = 0; end < 2; ++end) {
-        vec3 to_eye = direction_or(frame.eye_world.xyz - position_world[end], vec3(0.0, 0.0, 1.0));
+        to_eyes[end] = direction_or(frame.eye_world.xyz - position_world[end], vec3(0.0, 0.0, 1.0));
+    }
+    if (LEVEL_OF_DETAIL && hidden(0, to_eyes[0]) && hidden(1, to_eyes[1])) {
+        return;
+    }
+    for (int end = 0; end < 2; ++end) {
+        vec3 to_eye = to_eyes[end];
         vec3 side = strip_side(tangent_world[end].xyz, to_eye);
         for (int edge = -1; edge <= 1; edge += 2) {
             vec3 corner = position_world[end] + float(edge) * tangent_world[end].w * yarn.fiber_radius * side;
@@ -49,6 +68,7 @@ void main() {
             fragment_normal = ply_normal[end];
             fragment_binormal = ply_binormal[end];
             fragment_fiber = uvec3(fiber_index[end], uint(joining[first].z), piece[end]);
+            fragment_radiance = vertex_radiance[end];
             gl_Position = frame.clip_from_world * vec4(corner, 1.0);
             EmitVertex();
         }

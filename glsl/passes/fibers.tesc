@@ -5,7 +5,10 @@
 #include "../yarn/fetch.glsl"
 #include "level.glsl"
 
-layout(vertices = 1) out;
+// Each looks at an eighth of the group's slots: on a software device, whose lanes they are, one took half as long as
+// all the rest of a distant picture.
+const uint LANES = 8u;
+layout(vertices = LANES) out;
 
 layout(location = 0) in uint segment_index[];
 layout(location = 1) in uint first_fiber[];
@@ -14,13 +17,16 @@ layout(location = 1) patch out uint patch_first_fiber;
 layout(location = 2) patch out uint patch_fibers;
 layout(location = 3) patch out uint patch_pieces;
 layout(location = 4) patch out uvec2 patch_mask;
+layout(location = 5) patch out uint lane_masks[LANES];
 
-// The slots of this group whose fibers are drawn over some of the piece, one bit each.
-uvec2 drawn_slots(Segment segment, uint slot_count, Detail detail) {
-    uvec2 mask = uvec2(0u);
-    for (uint i = 0u; i < slot_count; ++i) {
-        uint slot = first_fiber[0] + i;
-        if (slot_weight(slot, detail) <= 0.0) {
+// The slots of this group whose fibers are drawn over some of the piece, of every eighth from this lane's on, one bit
+// each.
+uint drawn_slots(Segment segment, uint slot_count, Detail detail) {
+    uint mask = 0u;
+    for (uint i = 0u; i * LANES < slot_count; ++i) {
+        uint local = i * LANES + gl_InvocationID;
+        uint slot = first_fiber[0] + local;
+        if (local >= slot_count || slot_weight(slot, detail) <= 0.0) {
             break;  // nor any later one
         }
         uint index = fiber_of_slot(slot, yarn);
@@ -29,8 +35,22 @@ uvec2 drawn_slots(Segment segment, uint slot_count, Detail detail) {
             drawn = has_flyaway(segment, fibers[index], index, yarn);
         }
         if (drawn) {
-            mask[i >> 5u] |= 1u << (i & 31u);
+            mask |= 1u << i;
         }
+    }
+    return mask;
+}
+
+// Four bits, each in a byte of its own.
+uint spread_bits(uint bits) {
+    return (bits & 15u) * 0x00204081u & 0x01010101u;
+}
+
+// The lanes' slots as one mask, in the order of the slots.
+uvec2 all_slots() {
+    uvec2 mask = uvec2(0u);
+    for (uint lane = 0u; lane < LANES; ++lane) {
+        mask |= uvec2(spread_bits(lane_masks[lane]), spread_bits(lane_masks[lane] >> 4u)) << lane;
     }
     return mask;
 }
@@ -44,7 +64,7 @@ uint pieces_of(Segment segment, vec3 b[4], float pixel_mm) {
         fiber_reach *= max(1.0, max(hair, loop));
     }
     uint pieces = subdivisions(b, segment.ply_turns_delta, segment.fiber_turns_delta, yarn.ply_offset,
-                               fiber_reach, frame.tolerance_px * pixel_mm, PIECES_PER_TURN, yarn.max_subdivisions);
+                               fiber_reach, TOLERANCE * frame.tolerance_px * pixel_mm, PIECES_PER_TURN, yarn.max_subdivisions);
     return FLYAWAYS ? period_pieces(pieces, period_rate(segment, yarn), yarn.max_subdivisions) : pieces;
 }
 
@@ -52,14 +72,21 @@ void main() {
     Segment segment = segments[segment_index[0]];
     vec3 b[4];
     fetch_bezier(segment, b);
-    bool culled = CULLING && outside_frustum(b, yarn.reach + yarn.fiber_radius, frame.frustum_world);
+    bool outside = CULLING && outside_frustum(b, yarn.reach + yarn.fiber_radius, frame.frustum_world);
     float pixel_mm = frame.pixel_tangent * nearest_depth(b, depth_axis(), yarn.reach, frame.near_mm);
+    bool elsewhere = !drawn_here(segment_index[0], pixel_mm);
+    bool culled = outside || elsewhere;
 
     uint fiber_count = min(FIBERS_PER_PATCH, yarn.fiber_count - first_fiber[0]);
     Detail detail = detail_at(pixel_mm);
+    lane_masks[gl_InvocationID] = CORE_FIBERS && !culled ? drawn_slots(segment, fiber_count, detail) : 0u;
+    barrier();
+    if (gl_InvocationID > 0) {
+        return;
+    }
     patch_mask = uvec2(0u);
-    if (CORE_FIBERS && !culled) {
-        patch_mask = drawn_slots(segment, fiber_count, detail);
+    if (CORE_FIBERS) {
+        patch_mask = all_slots();
         fiber_count = uint(bitCount(patch_mask.x) + bitCount(patch_mask.y));
     }
     uint pieces = culled || fiber_count == 0u ? 1u : pieces_of(segment, b, pixel_mm);
@@ -71,8 +98,8 @@ void main() {
     gl_TessLevelOuter[0] = culled ? 0.0 : float(fiber_count);
     gl_TessLevelOuter[1] = culled ? 0.0 : float(pieces);
     if (STATISTICS) {
-        if (first_fiber[0] == 0) {
-            count_patch(culled);
+        if (first_fiber[0] == 0 && !elsewhere) {
+            count_patch(outside);
         }
         count_segments(culled ? 0 : fiber_count * pieces);
     }

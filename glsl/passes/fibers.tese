@@ -6,6 +6,7 @@
 #include "../shared/debug_views.glsl"
 #include "level.glsl"
 #include "shown.glsl"
+#include "surface.glsl"
 
 layout(isolines, equal_spacing) in;
 
@@ -23,6 +24,7 @@ layout(location = 4) out ivec4 joining;        // entry, exit, what a debug view
 layout(location = 5) out vec3 ply_normal;
 layout(location = 6) out vec3 ply_binormal;
 layout(location = 7) out uint piece;
+layout(location = 8) out vec3 vertex_radiance;
 
 // Factor of the fiber's own width where level of detail is at work: `flies` where it stands out of the ply as a
 // loop or a hair, for which no core stands.
@@ -30,6 +32,25 @@ float drawn_width(uint slot, vec3 position, bool flies) {
     Detail detail = detail_at(pixel_mm_at(position));
     float width = width_factor(slot_weight(slot, detail), detail.share);
     return flies ? width : width * rank_weight(fiber_index / yarn.ply_count, detail.kept);
+}
+
+// Radiance of a fiber whose width a pixel does not resolve.
+vec3 radiance_at(FiberPoint f) {
+    Strand strand;
+    strand.position = f.position;
+    strand.tangent = f.tangent;
+    vec3 to_eye = direction_or(frame.eye_world.xyz - f.position, vec3(0.0, 0.0, 1.0));
+    strand.side = strip_side(f.tangent, to_eye);
+    strand.toward = cross(strand.side, strand.tangent);
+    strand.near_place = section_place.xy / yarn.outer_radius;
+    strand.far_place = strand.near_place;
+    strand.far_share = 0.0;
+    strand.ply_normal = f.ply_normal;
+    strand.ply_binormal = f.ply_binormal;
+    strand.piece = patch_segment;
+    strand.spread = vec3(0.0);
+    strand.normals = STRIP_MEAN_NORMALS;
+    return shade(strand, to_eye);
 }
 
 void main() {
@@ -54,7 +75,9 @@ void main() {
         f = fetch_fiber_at(patch_segment, fiber_index, t, period);
         joining = ivec4(0, 0, shown(patch_segment, f, period.kind, t), int(place));
     }
-    position_world = f.position;
+    Segment segment = segments[patch_segment];
+    float ply_turns = segment.ply_turns_delta / float(patch_pieces);
+    position_world = set_out(f, ply_turns, ply_turns + segment.fiber_turns_delta / float(patch_pieces));
     tangent_world = vec4(f.tangent, CORE_FIBERS ? f.width * drawn_width(slot, f.position, flies) : f.width);
     ply_normal = f.ply_normal;
     ply_binormal = f.ply_binormal;
@@ -62,4 +85,5 @@ void main() {
     section_place.xy = vec2(dot(from_center, ply_normal), dot(from_center, ply_binormal));
     section_place.z = distance(f.position, f.ply_center);
     piece = patch_segment;
+    vertex_radiance = AT_VERTICES ? radiance_at(f) : vec3(0.0);
 }

@@ -3,6 +3,7 @@
 #define WORSTED_PASS_LEVEL
 
 #include "../yarn/detail.glsl"
+#include "../yarn/fiber.glsl"
 #include "../yarn/level.glsl"
 
 // A point's depth along the view axis is depth_axis().xyz . p + depth_axis().w.
@@ -22,11 +23,37 @@ Detail detail_at(float pixel_mm) {
 
 // Least pieces a turn of a fiber or ply, however small it is in the picture: straight pieces cut its way around
 // short, and what is drawn narrower than it is covers less.
-const float PIECES_PER_TURN = 6.0;
+const float PIECES_PER_TURN = AT_VERTICES ? 4.0 : 6.0;
+
+// Factor of the departure of straight pieces that is allowed: of what is thin, nobody sees which way it goes within a
+// pixel.
+const float TOLERANCE = AT_VERTICES ? 2.0 : 1.0;
+
+// A point of a fiber where straight pieces are as far from their axes as its arcs: turned by `ply` and `fiber` turns over
+// each piece.
+vec3 set_out(FiberPoint f, float ply, float fiber) {
+    return f.yarn_center + chord_outset(TWO_PI * ply) * (f.ply_center - f.yarn_center)
+         + chord_outset(TWO_PI * fiber) * (f.position - f.ply_center);
+}
 
 // Share of its width with which the fiber in a slot is drawn, whatever its rank.
 float slot_weight(uint slot, Detail detail) {
     return thinning_weight((float(slot) + 0.5) / float(yarn.fiber_count), detail.share);
+}
+
+// Share of the width below which plies are shaded at their vertices over which pieces change to it, each at a width
+// of its own: what that changes must not show all at once.
+const float VERTEX_SHADED_FADE = 0.4;
+
+// Whether this pipeline draws a piece of yarn whose pixels are `pixel_mm` wide: another has those that are shaded
+// elsewhere.
+bool drawn_here(uint segment_index, float pixel_mm) {
+    if (!VERTEX_SHADING) {
+        return true;
+    }
+    float chance = uniform_from_word(hash_words(uvec4(segment_index, 0u, 0u, 0u)).x);
+    float width_px = frame.vertex_shaded_px * (1.0 + VERTEX_SHADED_FADE * (chance - 0.5));
+    return (2.0 * yarn.ply_radius < width_px * pixel_mm) == AT_VERTICES;
 }
 
 float pixel_mm_at(vec3 position) {

@@ -59,6 +59,7 @@ pub const GROUPS: [Group; 2] = [
         bare: "nothing simplified",
         members: &[
             Approximation { name: "level of detail and cores", without: &[EVERY_FIBER] },
+            Approximation { name: "shading at vertices", without: &["quality.vertex_shaded_samples=0.0"] },
             Approximation {
                 name: "coarse pieces",
                 without: &["quality.subdivision_tolerance_px=0.05", "quality.max_subdivisions=64"],
@@ -185,9 +186,9 @@ mod tests {
     fn alone_leaves_out_the_others() {
         let [simplified, _] = GROUPS;
         let alone = simplified.alone(&simplified.members[0], 4);
-        assert!(!alone.sets.contains(&EVERY_FIBER.to_owned()) && alone.sets.len() == 5);
+        assert!(!alone.sets.contains(&EVERY_FIBER.to_owned()) && alone.sets.len() == 6);
         assert_eq!(Group::off(&simplified.members[0], 4).sets, [EVERY_FIBER]);
-        assert_eq!(simplified.bare(4).sets.len(), 6);
-        assert_eq!(alone.as_options().matches("--set").count(), 5);
+        assert_eq!(simplified.bare(4).sets.len(), 7);
+        assert_eq!(alone.as_options().matches("--set").count(), 6);
     }
 }

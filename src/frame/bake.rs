@@ -12,6 +12,7 @@ use crate::precompute::sky::{SkyYarns, bake_skies};
 use crate::scene::features::Features;
 use crate::scene::{Fabric, Scene};
 use crate::yarn::density::extinction_per_mm;
+use crate::yarn::detail::CORE_LEVELS;
 use crate::yarn::table::Fiber;
 use half::f16;
 use std::cell::LazyCell;
@@ -31,6 +32,8 @@ pub struct Bakes {
     pub occlusion_texture: Option<OcclusionTable>,
     /// Radius of the opaque tube that takes as much light from other yarns; the outer radius where nothing reads it.
     pub shadow_radius_mm: f64,
+    /// How far from a ply's centre each level of its core hides what lies behind; 0 where no core is drawn.
+    pub core_opaque: [f64; CORE_LEVELS as usize],
     /// Extinction per outer radius of the yarn.
     pub extinction: f64,
 }
@@ -47,6 +50,7 @@ impl Bakes {
         let quality = &scene.file.quality;
         let core =
             || bake_core(&fabric.yarn, cross_section, quality.core_texture_rows, quality.core_visible_share);
+        let core = features.core_fibers.then(|| timed(stats, "core_texture", core));
         let scattering = || scattering_table::bake(&fabric.fiber.scattering(), quality.scattering_entries);
         let yarn = &fabric.yarn;
         let extinction_per_mm = scene.file.shading.extinction_scale * extinction_per_mm(yarn);
@@ -68,7 +72,11 @@ impl Bakes {
             self_shadow: features.self_shadow.then(|| timed(stats, "self_shadow", depth)),
             shadow_radius_mm: if hides { shadow() } else { yarn.outer_radius_mm() },
             extinction: extinction_per_mm * yarn.outer_radius_mm(),
-            core: features.core_fibers.then(|| timed(stats, "core_texture", core)),
+            core_opaque: core
+                .as_ref()
+                .filter(|_| features.core_fibers_drawn)
+                .map_or([0.0; _], |core| core.opaque),
+            core,
             scattering: features.physical.then(|| timed(stats, "scattering_table", scattering)),
         }
     }

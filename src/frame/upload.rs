@@ -128,6 +128,7 @@ pub fn yarn(fabric: &Fabric, quality: &QualityTable, bakes: &Bakes, first_piece:
         core_rows: core.map_or(1, |core| core.mips[0].rows),
         core_above: core.map_or(1.0, |core| core.height_above) as f32,
         core_thickness: core.map_or([0.0; 8], |core| core.thickness.map(|t| t as f32)),
+        core_opaque: bakes.core_opaque.map(|v| v as f32),
         slot_stride: slot_stride(params.fiber_count()),
         reach: flyaways.reach_mm as f32,
         occlusion: occlusion.visibility.as_vec4().to_array(),
@@ -177,7 +178,7 @@ pub fn frame(
         thin_fiber_px: (quality.thin_fiber_samples * spacing_px) as f32,
         index: index as u32,
         shading_spacing_px: request.sampling.frame_spacing_px() as f32,
-        padding: 0.0,
+        vertex_shaded_px: (quality.vertex_shaded_samples * spacing_px) as f32,
     }
 }
 

@@ -16,6 +16,9 @@ pub fn strip_normals(across: f64) -> DVec4 {
     DVec4::new(across, z, 2.0 * across * z, z * z - across * across)
 }
 
+/// Mean of [`strip_normals`] over the strip.
+pub const STRIP_MEAN_NORMALS: DVec4 = DVec4::new(0.0, std::f64::consts::FRAC_PI_4, 0.0, 1.0 / 3.0);
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -48,5 +51,13 @@ mod tests {
     fn seen_end_on_it_is_still_finite() {
         let side = strip_side(DVec3::Z, DVec3::Z);
         assert!((side.length() - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_mean_is_that_over_the_strip() {
+        let steps = 10_000;
+        let across = |step| (f64::from(step) + 0.5) / f64::from(steps) * 2.0 - 1.0;
+        let mean = (0..steps).map(|step| strip_normals(across(step))).sum::<DVec4>() / f64::from(steps);
+        assert!((mean - STRIP_MEAN_NORMALS).abs().max_element() < 1e-6, "{mean}");
     }
 }

@@ -1,7 +1,7 @@
 //! Expands yarn into fibers and shades them: vertex, tessellation, geometry and fragment stages.
 
 use super::draw_plan::DrawPlan;
-use super::strand_pipeline::{Strands, strand_pipeline};
+use super::strand_pipeline::{Manner, Strands, strand_pipeline};
 use super::targets::Targets;
 use crate::graph::{Pass, Use};
 use crate::scene::features::Features;
@@ -57,10 +57,13 @@ pub struct FrameBuffers {
 
 /// One pipeline's draws of one fabric.
 struct FabricDraw {
-    pipeline: Pipeline,
+    /// Built when something is first drawn with it.
+    pipeline: Option<Pipeline>,
+    features: Features,
     /// Which of the pass's sets.
     fabric: usize,
     strands: Strands,
+    manner: Manner,
     plan: DrawPlan,
 }
 
@@ -74,17 +77,22 @@ pub struct FibersPass {
     frame_set: DescriptorSet,
     core_sampler: Sampler,
     table_sampler: Sampler,
-    pipelines: HashMap<(Features, Strands), Pipeline>,
+    pipelines: HashMap<(Features, Strands, Manner), Pipeline>,
+    samples: vk::SampleCountFlags,
     fabrics: Vec<DescriptorSet>,
     draws: Vec<FabricDraw>,
 }
 
 impl FibersPass {
-    /// Builds the pass around one frame's buffers.
+    /// Builds the pass around one frame's buffers, for frames of `samples`.
     ///
     /// # Errors
     /// Those of the device.
-    pub fn new(device: &Arc<Device>, frame: FrameBuffers) -> Result<Self, VulkanError> {
+    pub fn new(
+        device: &Arc<Device>,
+        frame: FrameBuffers,
+        samples: vk::SampleCountFlags,
+    ) -> Result<Self, VulkanError> {
         let binding = |binding, kind| Binding { binding, kind, stages: STAGES };
         let storage = vk::DescriptorType::STORAGE_BUFFER;
         let uniform = vk::DescriptorType::UNIFORM_BUFFER;
@@ -119,6 +127,7 @@ impl FibersPass {
             core_sampler: Sampler::new(device, "core", &sampling)?,
             table_sampler: Sampler::new(device, "table", &SamplerInfo::default())?,
             pipelines: HashMap::new(),
+            samples,
             fabrics: Vec::new(),
             draws: Vec::new(),
         })
@@ -144,12 +153,7 @@ impl FibersPass {
     ///
     /// # Errors
     /// Those of the device.
-    pub fn add_fabric(
-        &mut self,
-        buffers: &FabricBuffers,
-        features: Features,
-        samples: vk::SampleCountFlags,
-    ) -> Result<(), VulkanError> {
+    pub fn add_fabric(&mut self, buffers: &FabricBuffers, features: Features) -> Result<(), VulkanError> {
         let sampled = |image: usize| Resource::Sampled(buffers.core[image].view(), &self.core_sampler);
         let resources = [
             (0, Resource::Storage(&buffers.control_points)),
@@ -168,29 +172,51 @@ impl FibersPass {
         let fabric = self.fabrics.len();
         self.fabrics.push(set);
         // Cores first: what lies behind them is then never shaded.
-        let drawn =
-            [(Strands::Core, features.core_fibers_drawn), (Strands::Regular, features.regular_fibers)];
-        for (strands, _) in drawn.into_iter().filter(|(_, drawn)| *drawn) {
-            let pipeline = match self.pipelines.get(&(features, strands)) {
-                Some(pipeline) => pipeline.clone(),
-                None => {
-                    let layouts = self.layouts();
-                    let (device, shaders) = (&self.device, &self.shaders);
-                    let pipeline = strand_pipeline(device, shaders, &features, strands, samples, &layouts)?;
-                    self.pipelines.insert((features, strands), pipeline.clone());
-                    pipeline
-                }
-            };
-            self.draws.push(FabricDraw { pipeline, fabric, strands, plan: DrawPlan::default() });
+        let drawn = [
+            (Strands::Core, Manner::AtPixels, features.core_fibers_drawn),
+            (Strands::Core, Manner::AtVertices, features.core_fibers_drawn && features.vertex_shading),
+            (Strands::Regular, Manner::AtPixels, features.regular_fibers),
+            (Strands::Regular, Manner::AtVertices, features.regular_fibers && features.vertex_shading),
+            (Strands::Regular, Manner::Whole, features.may_be_whole()),
+        ];
+        for (strands, manner, _) in drawn.into_iter().filter(|(.., drawn)| *drawn) {
+            let plan = DrawPlan::default();
+            self.draws.push(FabricDraw { pipeline: None, features, fabric, strands, manner, plan });
         }
         Ok(())
     }
 
-    /// Decides on the draws of the pictures that follow: `plan` is asked for each fabric's strands.
-    pub fn plan(&mut self, plan: impl Fn(usize, Strands) -> DrawPlan) {
-        for draws in &mut self.draws {
-            draws.plan = plan(draws.fabric, draws.strands);
+    /// Decides on the draws of the pictures that follow: `plan` is asked for each fabric's strands. Pipelines are built
+    /// where they are first needed.
+    ///
+    /// # Errors
+    /// Those of the device.
+    pub fn plan(&mut self, plan: impl Fn(usize, Strands, Manner) -> DrawPlan) -> Result<(), VulkanError> {
+        let layouts = [&self.frame_layout, &self.fabric_layout];
+        for draw in &mut self.draws {
+            draw.plan = plan(draw.fabric, draw.strands, draw.manner);
+            if draw.pipeline.is_some() || draw.plan.draw_count() == 0 {
+                continue;
+            }
+            let key = (draw.features, draw.strands, draw.manner);
+            let built = match self.pipelines.get(&key) {
+                Some(pipeline) => pipeline.clone(),
+                None => {
+                    let what = (draw.strands, draw.manner);
+                    strand_pipeline(
+                        &self.device,
+                        &self.shaders,
+                        &draw.features,
+                        what,
+                        self.samples,
+                        &layouts,
+                    )?
+                }
+            };
+            self.pipelines.insert(key, built.clone());
+            draw.pipeline = Some(built);
         }
+        Ok(())
     }
 
     /// How many passes a frame is drawn in, so that none draws many more than `curves` fiber curves:
@@ -255,11 +281,9 @@ impl FibersPass {
             let start = range.start.clamp(before, before + count) - before;
             let end = range.end.clamp(before, before + count) - before;
             before += count;
-            if start == end {
-                continue;
-            }
-            commands.bind_pipeline(&draws.pipeline);
-            commands.bind_sets(&draws.pipeline, &[&self.frame_set, &self.fabrics[draws.fabric]]);
+            let Some(pipeline) = draws.pipeline.as_ref().filter(|_| start < end) else { continue };
+            commands.bind_pipeline(pipeline);
+            commands.bind_sets(pipeline, &[&self.frame_set, &self.fabrics[draws.fabric]]);
             for draw in draws.plan.draws().take(end).skip(start) {
                 commands.draw(draw.patches, draw.groups, draw.first_patch, draw.first_group);
             }

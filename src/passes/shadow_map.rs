@@ -1,7 +1,7 @@
 //! Draws every yarn as a ribbon of its outer radius as each light sees it (Wu & Yuksel 2019, Sec. 4.1).
 
 use super::spirv;
-use super::strand_pipeline::specialization;
+use super::strand_pipeline::{Manner, specialization};
 use super::targets::DEPTH_FORMAT;
 use crate::graph::{Pass, Use};
 use crate::math::curve::Basis;
@@ -154,7 +154,7 @@ fn pipeline(
     layouts: &[&DescriptorLayout; 2],
 ) -> Result<Pipeline, VulkanError> {
     let one = vk::SampleCountFlags::TYPE_1;
-    let constants = specialization(features, one);
+    let constants = specialization(features, one, Manner::AtPixels);
     let stage = |stage, file| -> Result<_, VulkanError> {
         Ok(ShaderStage { stage, spirv: spirv(file)?, constants: &constants })
     };

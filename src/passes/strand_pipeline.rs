@@ -10,6 +10,27 @@ use crate::vulkan::{
 };
 use std::sync::Arc;
 
+/// How strands are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Manner {
+    /// As the scene asks, shaded at every pixel.
+    AtPixels,
+    /// Likewise, shaded at their vertices: pieces of yarn that are thin in the picture.
+    AtVertices,
+    /// Every fiber at full detail: where level of detail has nothing to simplify.
+    Whole,
+}
+
+impl Manner {
+    /// The features of its pipelines.
+    fn features(self, of_fabric: &Features) -> Features {
+        match self {
+            Self::AtPixels | Self::AtVertices => *of_fabric,
+            Self::Whole => of_fabric.whole(),
+        }
+    }
+}
+
 /// What a pipeline draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Strands {
@@ -46,11 +67,11 @@ pub fn strand_pipeline(
     device: &Arc<Device>,
     shaders: &ShaderSet,
     features: &Features,
-    strands: Strands,
+    (strands, manner): (Strands, Manner),
     samples: vk::SampleCountFlags,
     layouts: &[&DescriptorLayout],
 ) -> Result<Pipeline, VulkanError> {
-    let constants = specialization(features, samples);
+    let constants = specialization(&manner.features(features), samples, manner);
     let stages = strands
         .stages()
         .iter()
@@ -62,9 +83,12 @@ pub fn strand_pipeline(
     Pipeline::graphics(
         device,
         &GraphicsPipelineInfo {
-            name: match strands {
-                Strands::Core => "core fibers",
-                Strands::Regular => "fibers",
+            name: match (strands, manner) {
+                (Strands::Core, Manner::AtPixels | Manner::Whole) => "core fibers",
+                (Strands::Regular, Manner::AtPixels) => "fibers",
+                (Strands::Regular, Manner::Whole) => "every fiber",
+                (Strands::Core, Manner::AtVertices) => "core fibers, shaded at vertices",
+                (Strands::Regular, Manner::AtVertices) => "fibers, shaded at vertices",
             },
             stages: &stages,
             topology: vk::PrimitiveTopology::PATCH_LIST,
@@ -84,9 +108,13 @@ pub fn strand_pipeline(
 }
 
 /// The features as specialization constants.
-pub fn specialization(features: &Features, samples: vk::SampleCountFlags) -> SpecializationConstants {
+pub fn specialization(
+    features: &Features,
+    samples: vk::SampleCountFlags,
+    manner: Manner,
+) -> SpecializationConstants {
     features
-        .specialization(samples.as_raw())
+        .specialization(samples.as_raw(), manner == Manner::AtVertices)
         .into_iter()
         .fold(SpecializationConstants::new(), |constants, (id, value)| constants.u32(id as u32, value))
 }

@@ -63,11 +63,14 @@ pub struct CoreMip {
     pub texels: Vec<Moments>,
 }
 
+/// Share of a row of a level that may be bare where it is taken to hide what lies behind.
+const SEEN_THROUGH: f64 = 0.01;
+
 /// Rows of the coarsest level of the core's texture.
 const FEWEST_ROWS: u32 = 8;
 
 /// The baked texture. Layer `ply * CORE_LEVELS + level` is the surface of the fibers of a ply that are not drawn
-/// one by one at a level; the last layer is a single fiber, which fills all rows.
+/// one by one at a level.
 #[derive(Clone, Debug)]
 pub struct CoreTexture {
     /// Array layers.
@@ -78,6 +81,8 @@ pub struct CoreTexture {
     pub extent: f64,
     /// Of each level: the farthest fiber's outer edge, likewise; 0 where the core stands for none.
     pub thickness: [f64; CORE_LEVELS as usize],
+    /// Of each level: distance from the ply's centre within which it covers all but [`SEEN_THROUGH`], likewise.
+    pub opaque: [f64; CORE_LEVELS as usize],
     /// Fibers of each ply that are drawn one by one at full detail.
     pub ranks: u32,
     /// Mean height of the whole ply's surface over that of a circle as thick.
@@ -105,13 +110,16 @@ pub fn bake_core(yarn: &YarnParams, fibers: &[Fiber], rows: u32, visible_share: 
     let height_share = seen.iter().map(|(_, height, _)| height).sum::<f64>() / f64::from(yarn.ply_count);
     let height_above = seen.iter().map(|(.., above)| above).sum::<f64>() / f64::from(yarn.ply_count);
 
-    let mut layers: Vec<Vec<Moments>> =
+    let layers: Vec<Vec<Moments>> =
         plies.par_iter().flat_map_iter(|fibers| ply_levels(grid, yarn, fibers, ranks)).collect();
-    layers.push(single_fiber(&grid));
     let thickness = std::array::from_fn(|level| {
         let first = first_rank(level as u32, ranks);
         let inner = plies.iter().map(|fibers| most(&fibers[first.min(fibers.len())..])).fold(0.0, f64::max);
         if inner > 0.0 { inner + grid.fiber_radius } else { 0.0 }
+    });
+    let opaque = std::array::from_fn(|level| {
+        let of_plies = layers.iter().skip(level).step_by(CORE_LEVELS as usize);
+        of_plies.map(|layer| opaque_extent(layer, grid.columns, grid.extent)).fold(f64::INFINITY, f64::min)
     });
     let base = CoreMip { columns: grid.columns as u32, rows, texels: layers.concat() };
     CoreTexture {
@@ -119,10 +127,21 @@ pub fn bake_core(yarn: &YarnParams, fibers: &[Fiber], rows: u32, visible_share: 
         mips: mip_chain(base, layers.len()),
         extent: grid.extent,
         thickness,
+        opaque,
         ranks,
         height_share,
         height_above,
     }
+}
+
+/// Distance from the middle row within which the rows of a layer are covered, but for [`SEEN_THROUGH`] of each.
+fn opaque_extent(layer: &[Moments], columns: usize, extent: f64) -> f64 {
+    let covered = |row: &[Moments]| row.iter().map(|texel| texel.shape[0]).sum::<f64>() / columns as f64;
+    let rows: Vec<f64> = layer.chunks_exact(columns).map(covered).collect();
+    let middle = rows.len() / 2;
+    let opaque = |pair: &(&f64, &f64)| pair.0.min(*pair.1) >= 1.0 - SEEN_THROUGH;
+    let around = rows[..middle].iter().rev().zip(&rows[middle..]).take_while(opaque).count();
+    extent * around as f64 / middle.max(1) as f64
 }
 
 /// Fewest ranks, from the outermost, such that the others make up at most `visible_share`.
@@ -152,19 +171,6 @@ fn ply_levels(grid: Grid, yarn: &YarnParams, fibers: &[Fiber], ranks: u32) -> Ve
         surface.texels()
     };
     (0..CORE_LEVELS).map(level).collect()
-}
-
-/// One fiber across all rows, each row averaged.
-fn single_fiber(grid: &Grid) -> Vec<Moments> {
-    const STEPS: u32 = 16;
-    let row = |row: usize| {
-        let at = |step: u32| {
-            (row as f64 + (f64::from(step) + 0.5) / f64::from(STEPS)) / grid.rows as f64 * 2.0 - 1.0
-        };
-        let sum = (0..STEPS).map(|step| Moments::round(at(step))).fold(Moments::default(), Add::add);
-        sum * (1.0 / f64::from(STEPS))
-    };
-    (0..grid.rows).flat_map(|r| vec![row(r); grid.columns]).collect()
 }
 
 /// Halves both sides until as few rows are left as tell a ply's edges from its middle: from far away, a picture's

@@ -54,6 +54,8 @@ pub struct Features {
     pub level_of_detail: bool,
     /// Fibers are drawn one by one.
     pub regular_fibers: bool,
+    /// Strands that are thin in the picture are shaded at their vertices.
+    pub vertex_shading: bool,
 }
 
 /// Specialization constants of `glsl/shared/features.glsl`.
@@ -83,6 +85,8 @@ pub enum SpecializationId {
     SelfShadow = 19,
     TextureOcclusion = 20,
     YarnOcclusion = 21,
+    VertexShading = 22,
+    AtVertices = 23,
 }
 
 impl Features {
@@ -133,12 +137,33 @@ impl Features {
             core_fibers_drawn: matches!(shown, FibersShown::Both | FibersShown::Core),
             level_of_detail: file.quality.level_of_detail && shown != FibersShown::Every,
             regular_fibers: shown != FibersShown::Core,
+            vertex_shading: shaded
+                && file.quality.level_of_detail
+                && shown != FibersShown::Every
+                && file.quality.vertex_shaded_samples > 0.0,
+        }
+    }
+
+    /// Whether pictures in which nothing is to be simplified are drawn without level of detail.
+    pub fn may_be_whole(&self) -> bool {
+        self.level_of_detail && self.core_fibers_drawn && self.regular_fibers
+    }
+
+    /// What the same fabric needs where every fiber is drawn, at full detail.
+    #[must_use]
+    pub fn whole(&self) -> Self {
+        Self {
+            core_fibers: false,
+            core_fibers_drawn: false,
+            level_of_detail: false,
+            vertex_shading: false,
+            ..*self
         }
     }
 
     /// Identifier and value of every specialization constant, booleans as 0 and 1, for frames of `samples`
-    /// samples a pixel.
-    pub fn specialization(&self, samples: u32) -> [(SpecializationId, u32); 22] {
+    /// samples a pixel; `at_vertices` for the pipelines that shade there.
+    pub fn specialization(&self, samples: u32, at_vertices: bool) -> [(SpecializationId, u32); 24] {
         use SpecializationId as Id;
         [
             (Id::Basis, self.basis as u32),
@@ -163,6 +188,8 @@ impl Features {
             (Id::SelfShadow, self.self_shadow.into()),
             (Id::TextureOcclusion, self.texture_occlusion.into()),
             (Id::YarnOcclusion, self.yarn_occlusion.into()),
+            (Id::VertexShading, self.vertex_shading.into()),
+            (Id::AtVertices, at_vertices.into()),
         ]
     }
 
@@ -212,6 +239,11 @@ impl Features {
             !self.level_of_detail,
             "level_of_detail",
             if self.core_fibers { "quality.level_of_detail is false" } else { "debug.fibers is every" },
+        );
+        leave(
+            shaded && self.level_of_detail && !self.vertex_shading,
+            "vertex_shading",
+            "quality.vertex_shaded_samples is 0",
         );
         leave(!self.culling, "culling", "quality.culling is false");
         leave(!self.statistics, "statistics", "no one asked for them");

@@ -169,6 +169,9 @@ pub struct QualityTable {
     /// Narrowest that level of detail draws a fiber, in distances between a pixel's samples, 0.01 to 10: of
     /// thinner ones some are dropped and the rest drawn this wide, so that they cover as much.
     pub thin_fiber_samples: f64,
+    /// Width of a ply below which level of detail shades its core and fibers at their vertices, not at every pixel, in
+    /// distances between a pixel's samples, 0 (never) to 1000.
+    pub vertex_shaded_samples: f64,
     /// A core fiber always stands for the innermost fibers of a ply, as many as make up no more than this
     /// share of what is seen of the ply, 0 to 1.
     pub core_visible_share: f64,
@@ -197,7 +200,8 @@ impl Default for QualityTable {
             culling: true,
             level_of_detail: true,
             lod_threshold_samples: 1.5,
-            thin_fiber_samples: 1.0,
+            thin_fiber_samples: 0.4,
+            vertex_shaded_samples: 12.0,
             core_visible_share: 0.02,
             core_texture_rows: 64,
             scattering_entries: DEFAULT_ENTRIES,

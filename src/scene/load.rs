@@ -43,6 +43,7 @@ impl SceneFile {
         range("quality.subdivision_tolerance_px", self.quality.subdivision_tolerance_px, 1e-3, 100.0)?;
         range("quality.lod_threshold_samples", self.quality.lod_threshold_samples, 0.01, 1e4)?;
         range("quality.thin_fiber_samples", self.quality.thin_fiber_samples, 0.01, 10.0)?;
+        range("quality.vertex_shaded_samples", self.quality.vertex_shaded_samples, 0.0, 1e3)?;
         range("quality.core_visible_share", self.quality.core_visible_share, 0.0, 1.0)?;
         let rows = self.quality.core_texture_rows;
         if !(8..=512).contains(&rows) || !rows.is_power_of_two() {

@@ -1,7 +1,7 @@
 //! Asks the device where fibers are, through a renderer's own buffers and its own GLSL function.
 
 use crate::frame::Renderer;
-use crate::passes::strand_pipeline::specialization;
+use crate::passes::strand_pipeline::{Manner, specialization};
 use crate::scene::features::Features;
 use crate::shaders;
 use crate::vulkan::{
@@ -68,7 +68,7 @@ pub fn ask_device(
     let info = ComputePipelineInfo {
         name: "fiber point",
         spirv: shaders::get(KERNEL).ok_or_else(|| VulkanError::misuse(format!("no shader `{KERNEL}`")))?,
-        constants: &specialization(features, vk::SampleCountFlags::TYPE_1),
+        constants: &specialization(features, vk::SampleCountFlags::TYPE_1, Manner::AtPixels),
         set_layouts: &[frame_layout, fabric_layout, &layout],
         push_constant_bytes: 0,
         cache: None,

@@ -39,7 +39,7 @@ fn rust_specialization() -> Vec<(u32, String)> {
         level_of_detail: false,
         regular_fibers: false,
     };
-    features.specialization(1).map(|(id, _)| (id as u32, screaming(&format!("{id:?}")))).to_vec()
+    features.specialization(1, false).map(|(id, _)| (id as u32, screaming(&format!("{id:?}")))).to_vec()
 }
 
 fn screaming(camel: &str) -> String {

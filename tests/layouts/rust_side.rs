@@ -102,6 +102,7 @@ pub fn layouts() -> Vec<Layout> {
             core_rows,
             core_above,
             core_thickness,
+            core_opaque,
             slot_stride,
             reach,
             k_tt,
@@ -143,7 +144,7 @@ pub fn layouts() -> Vec<Layout> {
             thin_fiber_px,
             index,
             shading_spacing_px,
-            padding
+            vertex_shaded_px
         }),
         layout!(Statistics { patches_drawn, patches_culled, fiber_segments_low, fiber_segments_high }),
     ]
