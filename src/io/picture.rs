@@ -262,8 +262,7 @@ fn decode(path: &Path, bytes: &[u8], format: ImageFormat) -> Result<DynamicImage
     reader.decode().map_err(|e| refused(path, "read", &e))
 }
 
-/// Most that any of the format's compressions saves: deflate makes 1032 bytes of one, and zeros twice as much of what
-/// is not stored at all.
+/// Bytes of pixels for each of a file: deflate makes at most 1032 of one, and this is twice that, for room.
 const MOST_COMPRESSED: u64 = 2048;
 /// Bytes that a picture of any file may take, so that tiles may be larger than a small picture.
 const ANY_FILES_BYTES: u64 = 1 << 22;
