@@ -1,6 +1,7 @@
 //! The `worsted` command: parse, run, report.
 
 use clap::Parser;
+use std::io::Write;
 use std::process::ExitCode;
 use worsted::cli::args::Args;
 
@@ -13,7 +14,7 @@ fn main() -> ExitCode {
     match worsted::cli::run(&args) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("worsted: {error}");
+            complain(&error.to_string());
             ExitCode::from(error.exit_code())
         }
     }
@@ -22,11 +23,19 @@ fn main() -> ExitCode {
 /// Prints help and version as they are, and a mistake as one line.
 fn report(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
-        return if error.print().is_ok() { ExitCode::SUCCESS } else { ExitCode::FAILURE };
+        return match error.print() {
+            Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => ExitCode::FAILURE,
+            _ => ExitCode::SUCCESS,
+        };
     }
     let text = error.render().to_string();
     let lines = text.lines().map(str::trim).take_while(|line| !line.is_empty());
     let line = lines.collect::<Vec<_>>().join(" ");
-    eprintln!("worsted: {}", line.strip_prefix("error: ").unwrap_or(&line));
+    complain(line.strip_prefix("error: ").unwrap_or(&line));
     ExitCode::from(worsted::error::EXIT_BAD_INPUT)
+}
+
+/// One line on standard error, or nothing where nobody listens there.
+fn complain(message: &str) {
+    drop(writeln!(std::io::stderr(), "worsted: {message}"));
 }

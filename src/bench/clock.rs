@@ -21,16 +21,16 @@ pub fn timed<T, E>(work: impl FnOnce() -> Result<T, E>) -> Result<(T, Seconds), 
     Ok((done, Seconds { cpu: cpu_seconds() - cpu, wall: wall.elapsed().as_secs_f64() }))
 }
 
-/// User and system time of this process so far, all threads together.
+/// User and system time of this process so far, all threads together; NaN where the system does not say.
 #[cfg(unix)]
-fn cpu_seconds() -> f64 {
+pub fn cpu_seconds() -> f64 {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
     time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
 }
 
 /// Nobody says.
 #[cfg(not(unix))]
-fn cpu_seconds() -> f64 {
+pub fn cpu_seconds() -> f64 {
     f64::NAN
 }
 

@@ -15,6 +15,7 @@ use crate::bench::run::{self, Plan};
 use crate::bench::settings::{Setting, check_samples, grid, quick_grid};
 use crate::bench::truth::TruthSettings;
 use crate::bench::views::views;
+use crate::cli::say::{say, tell};
 use crate::error::Error;
 use crate::io::error::FileError;
 use crate::scene::Scene;
@@ -74,9 +75,9 @@ pub fn run(args: &Bench, common: &Common) -> Result<(), Error> {
         write_text(Path::new("-"), &ratios(&report))?;
     }
     if !common.quiet {
-        println!("{}", page::summary(&report));
-        report.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
-        println!("{}", plan.folder.join(page::PAGE_FILE).display());
+        say!("{}", page::summary(&report));
+        report.warnings.iter().for_each(|warning| tell!("warning: {warning}"));
+        say!("{}", plan.folder.join(page::PAGE_FILE).display());
     }
     Ok(())
 }
@@ -122,7 +123,7 @@ fn measure(plan: &Plan, device: &std::sync::Arc<Device>, common: &Common) -> Res
         if doing != doing_before {
             bar.set_message(doing.to_owned());
             if lines && common.verbose > 0 {
-                eprintln!("{:3.0}% {doing}", 100.0 * share);
+                tell!("{:3.0}% {doing}", 100.0 * share);
             }
             doing_before = doing.to_owned();
         }

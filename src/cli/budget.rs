@@ -11,6 +11,7 @@ use crate::bench::references::reference;
 use crate::bench::truth::TruthSettings;
 use crate::bench::views::fiber_px;
 use crate::bench::work::work;
+use crate::cli::say::tell;
 use crate::error::Error;
 use crate::frame::Picture;
 use crate::frame::sampling::Sampling;
@@ -73,7 +74,7 @@ impl BudgetJob {
         job.asked_for = Some(std::mem::replace(&mut job.scene, settled));
         job.request.sampling = Sampling::new(promise.setting.samples).map_err(Error::Arguments)?;
         if !job.common.quiet {
-            eprintln!(
+            tell!(
                 "settings: {} ({}), FLIP at most {:.3}, at most {:.0} ms: measured on {}; a fiber is {:.2} pixels \
                  wide here",
                 promise.setting.name,
@@ -100,7 +101,7 @@ impl BudgetJob {
             let kept = found <= most;
             let said = format!("{what} {found:.4}, at most {most} was asked for");
             if !job.common.quiet {
-                eprintln!("verified: {said}: {}", if kept { "kept" } else { "broken" });
+                tell!("verified: {said}: {}", if kept { "kept" } else { "broken" });
             }
             if !kept {
                 broken.push(said);

@@ -4,6 +4,7 @@ mod table;
 
 use super::args::{Common, Compare, ShownTone};
 use super::output::write_text;
+use crate::cli::say;
 use crate::error::Error;
 use crate::io::error::{FileError, Place};
 use crate::io::measured::MeasuredImage;
@@ -82,7 +83,7 @@ pub fn run(args: &Compare, common: &Common) -> Result<(), Error> {
         write_text(path, &text)?;
     }
     if !common.quiet && args.json.as_deref() != Some(Path::new("-")) {
-        print!("{}", table::table(&report));
+        say::print(format_args!("{}", table::table(&report)));
     }
     let flip = comparison.error.covered.flip_mean;
     match args.fail_above {

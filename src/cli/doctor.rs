@@ -2,6 +2,7 @@
 
 use super::args::Common;
 use super::open_device;
+use crate::cli::say::say;
 use crate::error::Error;
 use crate::frame::sampling::Sampling;
 use crate::frame::{Renderer, Request};
@@ -21,44 +22,44 @@ pub fn run(common: &Common) -> Result<(), Error> {
     let check = draw_caps_agree(&device);
     Device::shutdown(device)?;
     check?;
-    println!("self-check: the same picture whatever the size of its draw calls: good");
+    say!("self-check: the same picture whatever the size of its draw calls: good");
     Ok(())
 }
 
 fn print_report(report: &DoctorReport) {
     match &report.loader {
-        Some(version) => println!("Vulkan loader: {version}"),
-        None => println!("Vulkan loader: missing"),
+        Some(version) => say!("Vulkan loader: {version}"),
+        None => say!("Vulkan loader: missing"),
     }
-    println!("validation layer: {}", if report.validation_layer { "present" } else { "missing" });
+    say!("validation layer: {}", if report.validation_layer { "present" } else { "missing" });
     for (index, device) in report.devices.iter().enumerate() {
         print_device(device, report.chosen == Some(index));
     }
     if let Some(problem) = &report.problem {
-        println!("problem: {problem}");
+        say!("problem: {problem}");
     }
     for fix in &report.fixes {
-        println!("fix: {fix}");
+        say!("fix: {fix}");
     }
 }
 
 fn print_device(device: &DeviceFacts, chosen: bool) {
     let mark = if chosen { "would be used" } else { "not used" };
-    println!("device {}: {} ({}), {mark}", device.index, device.name, device.kind);
-    println!(
+    say!("device {}: {} ({}), {mark}", device.index, device.name, device.kind);
+    say!(
         "  Vulkan {}, driver {}, {} MiB",
         device.api_version,
         device.driver,
         device.device_memory_bytes >> 20
     );
     for (need, met) in &device.needs {
-        println!("  needs {need}: {}", if *met { "yes" } else { "MISSING" });
+        say!("  needs {need}: {}", if *met { "yes" } else { "MISSING" });
     }
     for (feature, there) in &device.optional {
-        println!("  may use {feature}: {}", if *there { "yes" } else { "no" });
+        say!("  may use {feature}: {}", if *there { "yes" } else { "no" });
     }
     for (limit, value) in &device.limits {
-        println!("  {limit} = {value}");
+        say!("  {limit} = {value}");
     }
 }
 

@@ -3,6 +3,7 @@
 use super::args::{Common, Export};
 use super::job::{load_scene, realise_settings, report_notes};
 use super::progress::task_bar;
+use crate::cli::say::say;
 use crate::error::Error;
 use crate::io::fiber_bcc::{side_file, write_fiber_bcc};
 use crate::io::fiber_runs::{FiberGroup, FiberRun, point_count};
@@ -34,9 +35,9 @@ pub fn run(args: &Export, common: &Common) -> Result<(), Error> {
     write(&args.output, format, &groups, common)?;
     if !common.quiet {
         let (path, points) = (args.output.display(), point_count(&groups));
-        println!("{path}: {} runs of fibers, {points} points", fibers.len());
+        say!("{path}: {} runs of fibers, {points} points", fibers.len());
         if format == Format::Bcc {
-            println!("{}: their radii, yarns and plies", side_file(&args.output).display());
+            say!("{}: their radii, yarns and plies", side_file(&args.output).display());
         }
     }
     Ok(())

@@ -1,6 +1,7 @@
 //! `worsted info`.
 
 use super::args::Info;
+use crate::cli::say::say;
 use crate::error::Error;
 use crate::io::repair::summarize_repairs;
 use crate::io::yarn_file::load_yarn_file;
@@ -20,26 +21,26 @@ pub fn run(args: &Info) -> Result<(), Error> {
     let lengths: Vec<f64> = set.curves.iter().map(control_length).collect();
     let segments: usize = set.curves.iter().map(|c| c.points.len() - usize::from(!c.closed)).sum();
     let (low, high) = bounds(&set.curves);
-    println!("format: {}, {:?} curves", loaded.format, set.basis);
+    say!("format: {}, {:?} curves", loaded.format, set.basis);
     match set.up_axis {
-        Some(axis) => println!("up axis: {axis:?}"),
-        None => println!("up axis: not stated, Y is assumed"),
+        Some(axis) => say!("up axis: {axis:?}"),
+        None => say!("up axis: not stated, Y is assumed"),
     }
-    println!("curves: {} ({closed} closed, {} open)", set.curves.len(), set.curves.len() - closed);
-    println!("control points: {} ({} to {} a curve)", set.point_count(), least(&points), most(&points));
-    println!("bounds: {low:.4} to {high:.4} units");
+    say!("curves: {} ({closed} closed, {} open)", set.curves.len(), set.curves.len() - closed);
+    say!("control points: {} ({} to {} a curve)", set.point_count(), least(&points), most(&points));
+    say!("bounds: {low:.4} to {high:.4} units");
     let total: f64 = lengths.iter().sum();
-    println!("length: {total:.3} units in all, mean segment {:.4}", total / segments.max(1) as f64);
-    println!("curve lengths: {:.3} to {:.3} units", fold(&lengths, f64::min), fold(&lengths, f64::max));
+    say!("length: {total:.3} units in all, mean segment {:.4}", total / segments.max(1) as f64);
+    say!("curve lengths: {:.3} to {:.3} units", fold(&lengths, f64::min), fold(&lengths, f64::max));
     match estimate_contact_radius(&set.curves, set.basis) {
-        Some(radius) => println!("estimated contact radius: {radius:.4} units"),
-        None => println!("estimated contact radius: none, no strands touch"),
+        Some(radius) => say!("estimated contact radius: {radius:.4} units"),
+        None => say!("estimated contact radius: none, no strands touch"),
     }
     for line in summarize_repairs(&loaded.repairs) {
-        println!("repaired: {line}");
+        say!("repaired: {line}");
     }
     for note in &loaded.notes {
-        println!("note: {note}");
+        say!("note: {note}");
     }
     Ok(())
 }

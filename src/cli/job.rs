@@ -3,6 +3,7 @@
 use super::args::{Common, Render, SceneArgs};
 use super::budget::BudgetJob;
 use super::output::Output;
+use crate::cli::say::tell;
 use crate::error::Error;
 use crate::frame::Request;
 use crate::io::picture::{MAX_PIXELS, MAX_SIDE};
@@ -91,7 +92,7 @@ fn assignments(args: &SceneArgs, camera: Option<&str>) -> Result<Vec<String>, Er
 pub(super) fn report_notes(scene: &Scene, common: &Common) {
     if !common.quiet {
         for fabric in &scene.fabrics {
-            fabric.notes.iter().for_each(|note| eprintln!("{}: {note}", fabric.name));
+            fabric.notes.iter().for_each(|note| tell!("{}: {note}", fabric.name));
         }
     }
 }

@@ -15,6 +15,7 @@ mod probe;
 mod progress;
 mod reference;
 mod render;
+mod say;
 mod stress;
 
 use crate::error::Error;
@@ -28,6 +29,11 @@ use std::sync::Arc;
 /// # Errors
 /// One line, and an exit code.
 pub fn run(args: &Args) -> Result<(), Error> {
+    run_command(args)?;
+    say::finish()
+}
+
+fn run_command(args: &Args) -> Result<(), Error> {
     match &args.command {
         Command::Render(render) => render::run(job::RenderJob::new(render, &args.common)?),
         Command::Bench(bench) => bench::run(bench, &args.common),
@@ -59,6 +65,7 @@ pub fn start_logging(common: &Common) {
         .with_ansi(std::io::stderr().is_terminal())
         .with_target(false)
         .without_time()
+        .log_internal_errors(false)
         .init();
 }
 

@@ -1,5 +1,6 @@
 //! Files that commands write.
 
+use crate::cli::say::say;
 use crate::error::Error;
 use crate::frame::Picture;
 use crate::io::picture::{DisplayImage, LinearImage, write_exr, write_png};
@@ -69,7 +70,7 @@ impl Output {
 /// What the file system says.
 pub fn write_text(path: &Path, text: &str) -> Result<(), Error> {
     if path == Path::new("-") {
-        println!("{text}");
+        say!("{text}");
         return Ok(());
     }
     write_whole(path, |out| writeln!(out, "{text}"))?;

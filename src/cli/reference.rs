@@ -4,6 +4,7 @@ use super::args::{Common, Reference};
 use super::job::{in_range, load_scene, parse_size, realise_settings, report_notes};
 use super::output::{Output, PictureFormat, write_text};
 use super::progress::{set_share, share_bar};
+use crate::cli::say::tell;
 use crate::error::Error;
 use crate::io::picture::write_png;
 use crate::io::whole::check_target;
@@ -132,7 +133,7 @@ pub fn run(job: &ReferenceJob) -> Result<(), Error> {
 
 fn say(job: &ReferenceJob, line: &str) {
     if !job.common.quiet {
-        eprintln!("{line}");
+        tell!("{line}");
     }
 }
 

@@ -4,6 +4,7 @@ use super::job::{RenderJob, report_notes};
 use super::open_device;
 use super::output::write_text;
 use super::progress::{set_share, share_bar};
+use crate::cli::say::say;
 use crate::error::Error;
 use crate::frame::stats::Stats;
 use crate::frame::{Picture, Renderer};
@@ -60,12 +61,12 @@ fn draw(job: &RenderJob, device: &std::sync::Arc<Device>) -> Result<(Picture, St
 }
 
 fn explain(stats: &Stats) {
-    println!("device: {} ({})", stats.device, stats.driver);
-    println!("drawn: {} pieces of yarn, {} fiber curves", stats.yarn_segments, stats.fiber_curves);
+    say!("device: {} ({})", stats.device, stats.driver);
+    say!("drawn: {} pieces of yarn, {} fiber curves", stats.yarn_segments, stats.fiber_curves);
     for (what, bytes) in &stats.gpu_bytes {
-        println!("built: {what}, {bytes} bytes");
+        say!("built: {what}, {bytes} bytes");
     }
     for (what, why) in &stats.left_out {
-        println!("left out: {what}, because {why}");
+        say!("left out: {what}, because {why}");
     }
 }

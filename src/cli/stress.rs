@@ -4,6 +4,7 @@ use super::args::{Common, Stress};
 use super::open_device;
 use super::output::write_text;
 use super::progress::{set_share, share_bar};
+use crate::cli::say;
 use crate::error::Error;
 use crate::io::whole::check_target;
 use crate::stress::{report, stress};
@@ -28,7 +29,9 @@ pub fn run(args: &Stress, common: &Common) -> Result<(), Error> {
     let table = report::markdown(&found);
     match &args.table {
         Some(path) => write_text(path, &table)?,
-        None if args.json.as_deref() != Some(Path::new("-")) && !common.quiet => print!("{table}"),
+        None if args.json.as_deref() != Some(Path::new("-")) && !common.quiet => {
+            say::print(format_args!("{table}"))
+        }
         None => {}
     }
     if let Some(path) = &args.json {

@@ -41,7 +41,7 @@ impl FileError {
 
 impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: ", self.file.display())?;
+        write!(f, "{}: ", shown(&self.file))?;
         match self.place {
             Place::File => {}
             Place::Byte(offset) => write!(f, "byte {offset}: ")?,
@@ -53,3 +53,20 @@ impl fmt::Display for FileError {
 }
 
 impl std::error::Error for FileError {}
+
+/// A path in a line of text: names may hold line breaks and other control characters.
+pub fn shown(path: &Path) -> String {
+    let plain = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
+    path.to_string_lossy().chars().map(plain).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_with_a_line_break_is_still_one_line() {
+        let error = FileError::new(Path::new("a\nb\u{8}.bcc"), Place::Line(3), "what");
+        assert_eq!(error.to_string(), "a\u{fffd}b\u{fffd}.bcc: line 3: what");
+    }
+}

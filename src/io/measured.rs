@@ -175,6 +175,21 @@ mod tests {
         assert!(MeasuredImage::read(&folder.path().join("none.exr")).is_err());
     }
 
+    /// The shortest files there are for their pixels, by both writers.
+    #[test]
+    fn a_blank_picture_is_read_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.exr");
+        let mean = LinearImage::filled(2048, 1024, [0.0; 4]);
+        write_exr(&path, &mean).unwrap();
+        assert_eq!(read_exr(&path).unwrap(), mean);
+        let variance = Some(vec![[0.0; 3]; mean.pixels.len()]);
+        let blank = MeasuredImage { mean, variance };
+        blank.write(&path).unwrap();
+        println!("{} bytes", std::fs::metadata(&path).unwrap().len());
+        assert_eq!(MeasuredImage::read(&path).unwrap(), blank);
+    }
+
     #[test]
     fn a_variance_of_one_color_is_refused() {
         let folder = tempfile::tempdir().unwrap();

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{Cursor, Read};
 use std::path::Path;
 
+use exr::meta::BlockDescription;
 use glam::DVec3;
 use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Limits};
 
@@ -261,12 +262,25 @@ fn decode(path: &Path, bytes: &[u8], format: ImageFormat) -> Result<DynamicImage
     reader.decode().map_err(|e| refused(path, "read", &e))
 }
 
-/// Bounds what the decoder will allocate for compressed blocks: `image` limits the display window alone, while
-/// blocks are as large as the data window, the tiles and the number of channels make them.
+/// Bytes of pixels for each of a file: deflate makes at most 1032 of one, and this is twice that, for room.
+const MOST_COMPRESSED: u64 = 2048;
+/// Bytes that a picture of any file may take, so that tiles may be larger than a small picture.
+const ANY_FILES_BYTES: u64 = 1 << 22;
+/// How many times its data an OpenEXR picture's display window may be; and its pixels where that is less.
+const MOST_EMPTY: u64 = 64;
+const ANY_FILES_PIXELS: u64 = 1 << 20;
+
+/// Bounds what the decoder will allocate: `image` limits the display window alone, while blocks are as large as the
+/// data window, the tiles and the number of channels make them, whether the file is long enough for that or not.
 pub(super) fn check_exr_header(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let meta =
         exr::meta::MetaData::read_from_buffered(bytes, false).map_err(|e| refused(path, "read", &e))?;
+    let most_bytes = (bytes.len() as u64).saturating_mul(MOST_COMPRESSED).max(ANY_FILES_BYTES);
     for (layer, header) in meta.headers.iter().enumerate() {
+        let wrong = |message: String| {
+            let message = format!("layer {layer}: expected {message}");
+            Err(FileError::new(path, Place::File, message))
+        };
         let window = header.shared_attributes.display_window;
         let corner = header.own_attributes.layer_position;
         let offsets = [corner.x(), corner.y(), window.position.x(), window.position.y()];
@@ -274,18 +288,29 @@ pub(super) fn check_exr_header(path: &Path, bytes: &[u8]) -> Result<(), FileErro
         let sides_fit = sizes.iter().all(|s| s.x().max(s.y()) <= MAX_SIDE as usize);
         // Below this the decoder's difference of two offsets cannot overflow an i32.
         let offsets_fit = offsets.iter().all(|o| o.unsigned_abs() < 1 << 24);
-        let samples = |pixels: u64| pixels.saturating_mul(header.channels.list.len() as u64);
-        let pixels = sizes.map(|s| (s.x() as u64).saturating_mul(s.y() as u64));
-        let samples_fit = samples(pixels[0]) <= 4 * MAX_PIXELS && pixels[1] <= MAX_PIXELS;
+        let pixels = |size: exr::math::Vec2<usize>| (size.x() as u64).saturating_mul(size.y() as u64);
+        let channels = header.channels.list.len() as u64;
+        let [data, display] = sizes.map(pixels);
+        let samples_fit = data.saturating_mul(channels) <= 4 * MAX_PIXELS && display <= MAX_PIXELS;
         if !(sides_fit && offsets_fit && samples_fit) {
-            let message = format!(
-                "layer {layer}: expected windows of at most {MAX_SIDE} pixels a side and {MAX_PIXELS} RGBA \
-                 pixels, found data {:?}, display {:?} and {} channels",
-                header.layer_size,
-                window.size,
-                header.channels.list.len()
-            );
-            return Err(FileError::new(path, Place::File, message));
+            return wrong(format!(
+                "windows of at most {MAX_SIDE} pixels a side and {MAX_PIXELS} RGBA pixels, found data {:?}, \
+                 display {:?} and {channels} channels",
+                header.layer_size, window.size,
+            ));
+        }
+        let tile = match header.blocks {
+            BlockDescription::Tiles(tiles) => pixels(tiles.tile_size),
+            BlockDescription::ScanLines => 0,
+        };
+        let stored = data.max(tile).saturating_mul(header.channels.bytes_per_pixel as u64);
+        if stored > most_bytes {
+            return wrong(format!("at most {most_bytes} bytes of pixels in so short a file, found {stored}"));
+        }
+        if display > data.saturating_mul(MOST_EMPTY).max(ANY_FILES_PIXELS) {
+            return wrong(format!(
+                "a display window of at most {MOST_EMPTY} times the data, found {display} of {data}"
+            ));
         }
     }
     Ok(())

@@ -8,7 +8,7 @@ use super::yarn_table::check_yarns;
 use super::{Fabric, Scene, SceneError, overrides};
 use crate::io::curves::CurveSet;
 use crate::io::environment::read_environment;
-use crate::io::error::{FileError, Place};
+use crate::io::error::{FileError, Place, shown};
 use crate::io::picture::LinearImage;
 use crate::io::yarn_file::Loaded;
 use crate::knit::params::KnitParams;
@@ -89,7 +89,7 @@ impl Scene {
     /// # Errors
     /// One line that names the file, the place, what was expected and found.
     pub fn load(path: &Path, assignments: &[String]) -> Result<Self, SceneError> {
-        let name = path.display().to_string();
+        let name = shown(path);
         let value = |message: String| SceneError::Value { scene: name.clone(), message };
         let is_scene = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
         let (mut table, folder) = if is_scene {

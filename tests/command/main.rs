@@ -6,6 +6,7 @@ mod bench;
 mod compare;
 mod errors;
 mod export;
+mod pipes;
 mod probe;
 mod process;
 mod reference;
