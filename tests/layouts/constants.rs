@@ -38,6 +38,7 @@ fn rust_specialization() -> Vec<(u32, String)> {
         core_fibers_drawn: false,
         level_of_detail: false,
         regular_fibers: false,
+        vertex_shading: false,
     };
     features.specialization(1, false).map(|(id, _)| (id as u32, screaming(&format!("{id:?}")))).to_vec()
 }
