@@ -11,7 +11,8 @@ pub mod upload;
 
 use crate::gpu_types::{Statistics, TUBE_CORNERS};
 use crate::graph::{Graph, Pass};
-use crate::passes::fibers::{FibersPass, FrameBuffers};
+use crate::passes::fiber_sets::FrameBuffers;
+use crate::passes::fibers::FibersPass;
 use crate::passes::resolve::ResolvePass;
 use crate::passes::shadow_map::{ShadowMap, ShadowMapPass};
 use crate::passes::targets::Targets;
@@ -19,8 +20,9 @@ use crate::passes::tonemap::TonemapPass;
 use crate::precompute::environment::Environment;
 use crate::scene::camera::Camera;
 use crate::scene::features::Features;
-use crate::scene::file::CameraTable;
+use crate::scene::file::{CameraTable, DebugView};
 use crate::scene::light::{LightTable, check_lights};
+use crate::scene::needs::{Need, any_needs};
 use crate::scene::{Scene, SceneError};
 use crate::shaders::ShaderSet;
 use crate::vulkan::{Buffer, Device, ImageState, MemoryKind, Taken, VulkanError, vk};
@@ -66,13 +68,13 @@ pub struct Renderer {
     targets: Targets,
     environment: Environment,
     frame: Buffer,
-    statistics: Buffer,
-    lights: Buffer,
-    shadow_views: Buffer,
+    statistics: Option<Buffer>,
+    lights: Option<Buffer>,
+    shadow_views: Option<Buffer>,
     /// What the pipelines, the buffers and the shadow map have room for.
     light_room: LightRoom,
     cloth: Cloth,
-    shadow_map: ShadowMapPass,
+    shadow_map: Option<ShadowMapPass>,
     fibers: FibersPass,
     resolve: ResolvePass,
     tonemap: TonemapPass,
@@ -105,23 +107,26 @@ impl Renderer {
         let uniform = vk::BufferUsageFlags::UNIFORM_BUFFER;
         let frame_bytes = size_of::<crate::gpu_types::Frame>() as u64;
         let frame = Buffer::new(device, "frame", frame_bytes, uniform, MemoryKind::Upload)?;
-        let counted = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
-        let statistics = Buffer::upload(device, "statistics", counted, &[Statistics::default()])?;
         let features: Vec<Features> =
             scene.fabrics.iter().map(|f| Features::new(&scene.file, f, request.statistics)).collect();
-        let light_room = LightRoom::needed(&scene.file.light(), features.iter().any(|f| f.shadow_map));
+        let counted = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
+        let count = || Buffer::upload(device, "statistics", counted, &[Statistics::default()]);
+        let statistics = any_needs(&features, Need::Statistics).then(count).transpose()?;
+        let light_room = LightRoom::of(&scene.file.light(), &features);
         let [lights, shadow_views] = light_room.buffers(device)?;
-        let map = ShadowMap::new(device, scene.file.shadow.resolution, light_room.views)?;
+        let map = || ShadowMap::new(device, scene.file.shadow.resolution, light_room.views);
+        let map = any_needs(&features, Need::ShadowMap).then(map).transpose()?;
 
         let buffers = FrameBuffers {
             frame: frame.clone(),
             statistics: statistics.clone(),
             lights: lights.clone(),
             shadow_views: shadow_views.clone(),
-            shadow_map: map.image.clone(),
+            shadow_map: map.as_ref().map(|map| map.image.clone()),
         };
-        let mut shadow_map = ShadowMapPass::new(map, shadow_views.clone(), TUBE_CORNERS);
-        let mut fibers = FibersPass::new(device, buffers)?.with_shaders(shaders);
+        let views = shadow_views.clone();
+        let mut shadow_map = map.zip(views).map(|(map, views)| ShadowMapPass::new(map, views, TUBE_CORNERS));
+        let mut fibers = FibersPass::new(device, buffers, &features)?.with_shaders(shaders);
         let mut stats = Stats::new(device, &scene, &request);
         let started = Instant::now();
         let environment = upload::environment(&scene);
@@ -145,8 +150,9 @@ impl Renderer {
             let buffers = upload::fabric_buffers(device, &scene, fabric, &baked, first_piece)?;
             fibers.add_fabric(&buffers, features, samples)?;
             let pieces = fabric.strands.pieces.len() as u32;
-            if let Some(sets) = fibers.sets(index).filter(|_| light_room.views > 0) {
-                shadow_map.add_fabric(device, &features, &fibers.layouts(), sets, pieces)?;
+            let read_by = fibers.layouts(index).zip(fibers.sets(index));
+            if let Some((pass, (layouts, sets))) = shadow_map.as_mut().zip(read_by) {
+                pass.add_fabric(device, &features, &layouts, sets, pieces)?;
             }
             first_piece += pieces;
             stats.add_left_out(&features);
@@ -195,7 +201,10 @@ impl Renderer {
     pub fn set_lights(&mut self, lights: Vec<LightTable>) -> Result<(), SceneError> {
         let wrong = |message: String| SceneError::Value { scene: "lights".to_owned(), message };
         check_lights(&lights).map_err(|error| wrong(error.to_string()))?;
+        // Views that show no light have no room for any, and need none.
+        let shaded = self.scene.file.debug.view == DebugView::Shaded;
         let needed = LightRoom::needed(&lights, self.light_room.views > 0);
+        let needed = if shaded { needed } else { self.light_room };
         if let Some(message) = self.light_room.lacks(&needed) {
             return Err(wrong(message));
         }
@@ -225,15 +234,19 @@ impl Renderer {
         let frames = self.request.sampling.frames();
         let mut taken = Taken::NOTHING;
         let mut passes = HashMap::new();
-        if self.request.statistics {
-            self.statistics.replace(&[Statistics::default()])?;
+        if let Some(statistics) = &self.statistics {
+            statistics.replace(&[Statistics::default()])?;
         }
         let light_scale = light_scale(&self.scene, &self.environment, self.cloth.near(&camera, None));
         let lights = self.light_room.lights(&self.scene.file.light(), self.scene.origin_mm, light_scale);
-        self.lights.write(0, &lights)?;
+        if let Some(buffer) = &self.lights {
+            buffer.write(0, &lights)?;
+        }
         let views = self.light_room.views(&self.scene, &camera, &self.cloth);
-        self.shadow_views.write(0, &views)?;
-        if let Some(pass) = self.shadow_map.pass(views.len() as u32) {
+        if let Some(buffer) = &self.shadow_views {
+            buffer.write(0, &views)?;
+        }
+        if let Some(pass) = self.shadow_map.as_ref().and_then(|map| map.pass(views.len() as u32)) {
             let timings = self.request.profile.then_some(&mut passes);
             taken += run(&mut self.graph, &self.device, &[pass], timings)?;
         }
@@ -243,8 +256,8 @@ impl Renderer {
             self.frame.write(0, &[frame])?;
             let timings = self.request.profile.then_some(&mut passes);
             taken += self.draw_frame((index, frames), light_scale, timings, progress)?;
-            if index == 0 && self.request.statistics {
-                self.stats.set_counts(self.statistics.read_staged()?);
+            if let Some(statistics) = self.statistics.as_ref().filter(|_| index == 0) {
+                self.stats.set_counts(statistics.read_staged()?);
             }
         }
         self.stats.add_frame(taken, passes);

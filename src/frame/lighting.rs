@@ -6,8 +6,10 @@ use crate::math::bounds::Bounds;
 use crate::precompute::environment::Environment;
 use crate::scene::Scene;
 use crate::scene::camera::Camera;
+use crate::scene::features::Features;
 use crate::scene::file::DebugView;
 use crate::scene::light::{self, LightTable};
+use crate::scene::needs::{Need, any_needs};
 use crate::scene::shadow::{self, shadow_views};
 use crate::vulkan::{Buffer, Device, MemoryKind, VulkanError, vk};
 use glam::{DMat4, DVec3};
@@ -33,6 +35,12 @@ impl LightRoom {
         Self { lights: shining().count(), local: shining().any(LightTable::is_local), views }
     }
 
+    /// What a scene with these lights and fabrics needs.
+    pub fn of(tables: &[LightTable], features: &[Features]) -> Self {
+        let room = Self::needed(tables, any_needs(features, Need::ShadowMap));
+        if any_needs(features, Need::Lights) { room } else { Self { lights: 0, ..room } }
+    }
+
     /// One line that says why `needed` does not fit, if it does not.
     pub fn lacks(&self, needed: &Self) -> Option<String> {
         if needed.lights > self.lights {
@@ -48,19 +56,19 @@ impl LightRoom {
         })
     }
 
-    /// Buffers for the lights and for their views. A descriptor must be there even where nothing reads it: one
-    /// stands in.
+    /// Buffers for the lights and for their views, where there are any.
     ///
     /// # Errors
     /// Those of the device.
-    pub fn buffers(&self, device: &Arc<Device>) -> Result<[Buffer; 2], VulkanError> {
+    pub fn buffers(&self, device: &Arc<Device>) -> Result<[Option<Buffer>; 2], VulkanError> {
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
-        let bytes = |size: usize, count: usize| (size * count.max(1)) as u64;
-        let lights = bytes(size_of::<Light>(), self.lights);
-        let views = bytes(size_of::<ShadowView>(), self.views as usize);
+        let buffer = |name: &str, size: usize, count: usize| {
+            let make = || Buffer::new(device, name, (size * count) as u64, storage, MemoryKind::Upload);
+            (count > 0).then(make).transpose()
+        };
         Ok([
-            Buffer::new(device, "lights", lights, storage, MemoryKind::Upload)?,
-            Buffer::new(device, "shadow views", views, storage, MemoryKind::Upload)?,
+            buffer("lights", size_of::<Light>(), self.lights)?,
+            buffer("shadow views", size_of::<ShadowView>(), self.views as usize)?,
         ])
     }
 

@@ -8,6 +8,7 @@ pub mod file;
 pub mod keys;
 pub mod light;
 pub mod load;
+pub mod needs;
 pub mod overrides;
 pub mod shadow;
 pub mod shadow_light;
