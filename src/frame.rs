@@ -5,12 +5,14 @@ mod cloth;
 pub mod lighting;
 mod plan;
 pub mod sampling;
+mod savings;
 pub mod stats;
 mod textures;
 pub mod upload;
 
-use crate::gpu_types::{Statistics, TUBE_CORNERS};
+use crate::gpu_types::{Frame, Statistics, TUBE_CORNERS};
 use crate::graph::{Graph, Pass};
+use crate::passes::draw_plan::DrawPlan;
 use crate::passes::fiber_sets::FrameBuffers;
 use crate::passes::fibers::FibersPass;
 use crate::passes::resolve::ResolvePass;
@@ -29,7 +31,7 @@ use crate::vulkan::{Buffer, Device, ImageState, MemoryKind, Taken, VulkanError, 
 use crate::yarn::table::fiber_table;
 use bake::Bakes;
 use cloth::Cloth;
-use lighting::{LightRoom, light_scale};
+use lighting::{LightRoom, light_scale, lights_that_reach};
 use sampling::Sampling;
 use stats::Stats;
 use std::collections::{BTreeMap, HashMap};
@@ -155,7 +157,7 @@ impl Renderer {
                 pass.add_fabric(device, &features, &layouts, sets, pieces)?;
             }
             first_piece += pieces;
-            stats.add_left_out(&features);
+            stats.add_left_out(&features, |what| savings::saved_bytes(&scene, fabric, what));
         }
         let resolve = ResolvePass::new(device, &targets)?;
         let tonemap = TonemapPass::new(device, &targets, &scene.file.display)?;
@@ -228,21 +230,27 @@ impl Renderer {
     /// Those of the device.
     pub fn render(&mut self, progress: &dyn Fn(f64)) -> Result<Picture, VulkanError> {
         let camera = self.camera();
-        let (scene, view, is_cpu) = (&self.scene, (&camera, &self.request), self.device.is_cpu());
-        self.fibers
-            .plan(|fabric, strands| plan::draw_plan(scene, &scene.fabrics[fabric], view, strands, is_cpu));
+        self.stats.left_out_of_frame.clear();
+        let unseen = self.plan(&camera);
         let frames = self.request.sampling.frames();
         let mut taken = Taken::NOTHING;
         let mut passes = HashMap::new();
         if let Some(statistics) = &self.statistics {
             statistics.replace(&[Statistics::default()])?;
         }
-        let light_scale = light_scale(&self.scene, &self.environment, self.cloth.near(&camera, None));
-        let lights = self.light_room.lights(&self.scene.file.light(), self.scene.origin_mm, light_scale);
+        let near = self.cloth.near(&camera, None);
+        let light_scale = light_scale(&self.scene, &self.environment, near);
+        let (reaching, missing) = lights_that_reach(&self.scene, near);
+        self.stats.add_left_out_of_frame(
+            missing
+                .into_iter()
+                .map(|index| (format!("light {index}"), "its cone misses the cloth".to_owned())),
+        );
+        let lights = self.light_room.lights(&reaching, self.scene.origin_mm, light_scale);
         if let Some(buffer) = &self.lights {
             buffer.write(0, &lights)?;
         }
-        let views = self.light_room.views(&self.scene, &camera, &self.cloth);
+        let views = self.light_room.views(&self.scene, &reaching, &camera, &self.cloth);
         if let Some(buffer) = &self.shadow_views {
             buffer.write(0, &views)?;
         }
@@ -252,18 +260,35 @@ impl Renderer {
         }
         for index in 0..frames {
             let light = (&self.environment, light_scale);
+            let light_count = reaching.len().min(self.light_room.lights) as u32;
             let frame = upload::frame(&self.scene, &camera, light, &self.request, index);
+            let frame = Frame { light_count, ..frame };
             self.frame.write(0, &[frame])?;
             let timings = self.request.profile.then_some(&mut passes);
             taken += self.draw_frame((index, frames), light_scale, timings, progress)?;
             if let Some(statistics) = self.statistics.as_ref().filter(|_| index == 0) {
-                self.stats.set_counts(statistics.read_staged()?);
+                self.stats.set_counts(statistics.read_staged()?, unseen);
             }
         }
         self.stats.add_frame(taken, passes);
         let picture = self.read_picture()?;
         self.stats.inspect(&picture.linear, light_scale);
         Ok(picture)
+    }
+
+    /// Decides on the draws of a picture and returns how many pieces of yarn are in none of them.
+    fn plan(&mut self, camera: &Camera) -> u64 {
+        let (scene, view, is_cpu) = (&self.scene, (camera, &self.request), self.device.is_cpu());
+        let unseen: Vec<bool> = scene.fabrics.iter().map(|f| plan::out_of_view(scene, f, view)).collect();
+        self.fibers.plan(|index, strands| match (unseen[index], &scene.fabrics[index]) {
+            (true, _) => DrawPlan::default(),
+            (false, fabric) => plan::draw_plan(scene, fabric, view, strands, is_cpu),
+        });
+        let left_out = || scene.fabrics.iter().enumerate().filter(|(index, _)| unseen[*index]);
+        self.stats.add_left_out_of_frame(left_out().map(|(index, fabric)| {
+            (format!("fabric {index} ({})", fabric.name), "all of it is outside the picture".to_owned())
+        }));
+        left_out().map(|(_, fabric)| fabric.strands.pieces.len() as u64).sum()
     }
 
     /// Draws jittered frame `index` of `count` and adds it to the picture.

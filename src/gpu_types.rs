@@ -243,8 +243,8 @@ pub struct Frame {
     pub index: u32,
     /// Between the places of a pixel at which one thing is shaded.
     pub shading_spacing_px: f32,
-    /// Not used.
-    pub padding: f32,
+    /// Lights of which anything may arrive in this picture.
+    pub light_count: u32,
 }
 
 /// Counted by the control stage.

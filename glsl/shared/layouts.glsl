@@ -125,7 +125,7 @@ struct Frame {
     float thin_fiber_px;        // narrowest that level of detail draws a fiber
     uint index;                 // of the jittered frame
     float shading_spacing_px;   // between the places of a pixel at which one thing is shaded
-    float padding;
+    uint light_count;           // of which anything may arrive in this picture
 };
 
 // Counted by the control stage; each count is two words, low then high.

@@ -66,6 +66,11 @@ fn explain(stats: &Stats) {
         println!("built: {what}, {bytes} bytes");
     }
     for (what, why) in &stats.left_out {
-        println!("left out: {what}, because {why}");
+        let saved = stats.left_out_bytes.get(what);
+        let saved = saved.map_or_else(String::new, |bytes| format!(": {bytes} bytes saved"));
+        println!("left out: {what}, because {why}{saved}");
+    }
+    for (what, why) in &stats.left_out_of_frame {
+        println!("left out of the picture: {what}, because {why}");
     }
 }

@@ -9,9 +9,11 @@ use crate::scene::camera::Camera;
 use crate::scene::features::Features;
 use crate::scene::file::DebugView;
 use crate::scene::light::{self, LightTable};
+use crate::scene::light_reach::reaches;
 use crate::scene::needs::{Need, any_needs};
 use crate::scene::shadow::{self, shadow_views};
 use crate::vulkan::{Buffer, Device, MemoryKind, VulkanError, vk};
+use crate::yarn::flyaway::Flyaways;
 use glam::{DMat4, DVec3};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -98,13 +100,18 @@ impl LightRoom {
     }
 
     /// What the lights see of the cloth that the camera sees, in the order of their views.
-    pub fn views(&self, scene: &Scene, camera: &Camera, cloth: &Cloth) -> Vec<ShadowView> {
+    pub fn views(
+        &self,
+        scene: &Scene,
+        tables: &[LightTable],
+        camera: &Camera,
+        cloth: &Cloth,
+    ) -> Vec<ShadowView> {
         if self.views == 0 {
             return Vec::new();
         }
         let resolution = scene.file.shadow.resolution;
-        let lights = scene.file.light();
-        let shining = lights.iter().filter(|light| light.shines());
+        let shining = tables.iter().filter(|light| light.shines());
         shining
             .flat_map(|light| {
                 let near = cloth.near(camera, Some(light));
@@ -113,6 +120,18 @@ impl LightRoom {
             .map(|view| gpu_view(&view))
             .collect()
     }
+}
+
+/// The scene's lights that shine and of which something may arrive at cloth in this box, and the places in the scene of
+/// those of which nothing does.
+pub fn lights_that_reach(scene: &Scene, (low, high): Bounds) -> (Vec<LightTable>, Vec<usize>) {
+    // Hairs stand out of the box.
+    let reach = scene.fabrics.iter().map(|f| Flyaways::new(&f.yarn).reach_mm).fold(0.0, f64::max);
+    let around = (low - DVec3::splat(reach), high + DVec3::splat(reach));
+    let shining = scene.file.light().into_iter().enumerate().filter(|(_, light)| light.shines());
+    let (reaching, missing): (Vec<_>, Vec<_>) =
+        shining.partition(|(_, light)| reaches(light, scene.origin_mm, around));
+    (reaching.into_iter().map(|(_, light)| light).collect(), missing.into_iter().map(|(i, _)| i).collect())
 }
 
 /// Brightest light between which half floats hold what yarn sends back as they are: all of its highlights, and a

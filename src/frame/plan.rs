@@ -8,7 +8,17 @@ use crate::scene::features::Features;
 use crate::scene::{Fabric, Scene};
 use crate::yarn::detail::{share_kept, slots_kept};
 use crate::yarn::flyaway::Flyaways;
-use glam::DVec3;
+use glam::{DVec3, DVec4};
+
+/// Whether all of the fabric's yarns, hairs included, lie outside one side of the picture: then none of its draws is
+/// made. Curves lie within the hull of their points.
+pub fn out_of_view(scene: &Scene, fabric: &Fabric, (camera, request): (&Camera, &Request)) -> bool {
+    let reach = Flyaways::new(&fabric.yarn).reach_mm + fabric.yarn.fiber_radius_mm();
+    let beyond = |plane: &DVec4| {
+        fabric.hull_points().all(|p| plane.truncate().dot(p - scene.origin_mm) + plane.w < -reach)
+    };
+    scene.file.quality.culling && camera.frustum_world(request.size).iter().any(beyond)
+}
 
 /// Draws of one fabric's strands, fit for the device. Groups of fibers that level of detail keeps nowhere in the
 /// picture are not drawn at all.

@@ -177,7 +177,8 @@ pub fn frame(
         thin_fiber_px: (quality.thin_fiber_samples * spacing_px) as f32,
         index: index as u32,
         shading_spacing_px: request.sampling.frame_spacing_px() as f32,
-        padding: 0.0,
+        // The lights of a picture are known where it is drawn.
+        light_count: 0,
     }
 }
 

@@ -7,6 +7,7 @@ pub mod fiber_table;
 pub mod file;
 pub mod keys;
 pub mod light;
+pub mod light_reach;
 pub mod load;
 pub mod needs;
 pub mod overrides;

@@ -143,7 +143,7 @@ pub fn layouts() -> Vec<Layout> {
             thin_fiber_px,
             index,
             shading_spacing_px,
-            padding
+            light_count
         }),
         layout!(Statistics { patches_drawn, patches_culled, fiber_segments_low, fiber_segments_high }),
     ]
