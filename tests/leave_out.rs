@@ -3,8 +3,6 @@
 //! `docs/leave-out.md` has the table of these scenes. Everything runs under the validation layer, which refuses a
 //! shader that declares a descriptor the layout lacks.
 
-#![expect(clippy::panic, reason = "a missing row fails the test")]
-
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
