@@ -5,13 +5,15 @@ mod cloth;
 pub mod lighting;
 mod plan;
 pub mod sampling;
+mod savings;
 pub mod stats;
 mod textures;
 pub mod upload;
 
-use crate::gpu_types::{Statistics, TUBE_CORNERS};
+use crate::gpu_types::{Frame, Statistics, TUBE_CORNERS};
 use crate::graph::{Graph, Pass};
-use crate::passes::fibers::{FibersPass, FrameBuffers};
+use crate::passes::fiber_sets::FrameBuffers;
+use crate::passes::fibers::FibersPass;
 use crate::passes::resolve::ResolvePass;
 use crate::passes::shadow_map::{ShadowMap, ShadowMapPass};
 use crate::passes::targets::Targets;
@@ -19,15 +21,17 @@ use crate::passes::tonemap::TonemapPass;
 use crate::precompute::environment::Environment;
 use crate::scene::camera::Camera;
 use crate::scene::features::Features;
-use crate::scene::file::CameraTable;
+use crate::scene::file::{CameraTable, DebugView};
 use crate::scene::light::{LightTable, check_lights};
+use crate::scene::needs::{Need, any_needs};
 use crate::scene::{Scene, SceneError};
 use crate::shaders::ShaderSet;
 use crate::vulkan::{Buffer, Device, ImageState, MemoryKind, Taken, VulkanError, vk};
 use crate::yarn::table::fiber_table;
 use bake::Bakes;
 use cloth::Cloth;
-use lighting::{LightRoom, light_scale};
+use lighting::{LightRoom, light_scale, lights_that_reach};
+use plan::Planned;
 use sampling::Sampling;
 use stats::Stats;
 use std::collections::{BTreeMap, HashMap};
@@ -66,13 +70,13 @@ pub struct Renderer {
     targets: Targets,
     environment: Environment,
     frame: Buffer,
-    statistics: Buffer,
-    lights: Buffer,
-    shadow_views: Buffer,
+    statistics: Option<Buffer>,
+    lights: Option<Buffer>,
+    shadow_views: Option<Buffer>,
     /// What the pipelines, the buffers and the shadow map have room for.
     light_room: LightRoom,
     cloth: Cloth,
-    shadow_map: ShadowMapPass,
+    shadow_map: Option<ShadowMapPass>,
     fibers: FibersPass,
     resolve: ResolvePass,
     tonemap: TonemapPass,
@@ -105,23 +109,26 @@ impl Renderer {
         let uniform = vk::BufferUsageFlags::UNIFORM_BUFFER;
         let frame_bytes = size_of::<crate::gpu_types::Frame>() as u64;
         let frame = Buffer::new(device, "frame", frame_bytes, uniform, MemoryKind::Upload)?;
-        let counted = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
-        let statistics = Buffer::upload(device, "statistics", counted, &[Statistics::default()])?;
         let features: Vec<Features> =
             scene.fabrics.iter().map(|f| Features::new(&scene.file, f, request.statistics)).collect();
-        let light_room = LightRoom::needed(&scene.file.light(), features.iter().any(|f| f.shadow_map));
+        let counted = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
+        let count = || Buffer::upload(device, "statistics", counted, &[Statistics::default()]);
+        let statistics = any_needs(&features, Need::Statistics).then(count).transpose()?;
+        let light_room = LightRoom::of(&scene.file.light(), &features);
         let [lights, shadow_views] = light_room.buffers(device)?;
-        let map = ShadowMap::new(device, scene.file.shadow.resolution, light_room.views)?;
+        let map = || ShadowMap::new(device, scene.file.shadow.resolution, light_room.views);
+        let map = any_needs(&features, Need::ShadowMap).then(map).transpose()?;
 
         let buffers = FrameBuffers {
             frame: frame.clone(),
             statistics: statistics.clone(),
             lights: lights.clone(),
             shadow_views: shadow_views.clone(),
-            shadow_map: map.image.clone(),
+            shadow_map: map.as_ref().map(|map| map.image.clone()),
         };
-        let mut shadow_map = ShadowMapPass::new(map, shadow_views.clone(), TUBE_CORNERS);
-        let mut fibers = FibersPass::new(device, buffers, samples)?.with_shaders(shaders);
+        let views = shadow_views.clone();
+        let mut shadow_map = map.zip(views).map(|(map, views)| ShadowMapPass::new(map, views, TUBE_CORNERS));
+        let mut fibers = FibersPass::new(device, buffers, &features, samples)?.with_shaders(shaders);
         let mut stats = Stats::new(device, &scene, &request);
         let started = Instant::now();
         let environment = upload::environment(&scene);
@@ -145,11 +152,12 @@ impl Renderer {
             let buffers = upload::fabric_buffers(device, &scene, fabric, &baked, first_piece)?;
             fibers.add_fabric(&buffers, features)?;
             let pieces = fabric.strands.pieces.len() as u32;
-            if let Some(sets) = fibers.sets(index).filter(|_| light_room.views > 0) {
-                shadow_map.add_fabric(device, &features, &fibers.layouts(), sets, pieces)?;
+            let read_by = fibers.layouts(index).zip(fibers.sets(index));
+            if let Some((pass, (layouts, sets))) = shadow_map.as_mut().zip(read_by) {
+                pass.add_fabric(device, &features, &layouts, sets, pieces)?;
             }
             first_piece += pieces;
-            stats.add_left_out(&features);
+            stats.add_left_out(&features, |what| savings::saved_bytes(&scene, fabric, what));
         }
         let resolve = ResolvePass::new(device, &targets)?;
         let tonemap = TonemapPass::new(device, &targets, &scene.file.display)?;
@@ -195,7 +203,10 @@ impl Renderer {
     pub fn set_lights(&mut self, lights: Vec<LightTable>) -> Result<(), SceneError> {
         let wrong = |message: String| SceneError::Value { scene: "lights".to_owned(), message };
         check_lights(&lights).map_err(|error| wrong(error.to_string()))?;
+        // Views that show no light have no room for any, and need none.
+        let shaded = self.scene.file.debug.view == DebugView::Shaded;
         let needed = LightRoom::needed(&lights, self.light_room.views > 0);
+        let needed = if shaded { needed } else { self.light_room };
         if let Some(message) = self.light_room.lacks(&needed) {
             return Err(wrong(message));
         }
@@ -219,37 +230,62 @@ impl Renderer {
     /// Those of the device.
     pub fn render(&mut self, progress: &dyn Fn(f64)) -> Result<Picture, VulkanError> {
         let camera = self.camera();
-        let planned = plan::Planned::new(&self.scene, &camera, &self.request, self.device.is_cpu());
-        self.fibers.plan(|fabric, strands, manner| planned.draws(fabric, strands, manner))?;
+        self.stats.left_out_of_frame.clear();
+        let unseen = self.plan(&camera)?;
         let frames = self.request.sampling.frames();
         let mut taken = Taken::NOTHING;
         let mut passes = HashMap::new();
-        if self.request.statistics {
-            self.statistics.replace(&[Statistics::default()])?;
+        if let Some(statistics) = &self.statistics {
+            statistics.replace(&[Statistics::default()])?;
         }
-        let light_scale = light_scale(&self.scene, &self.environment, self.cloth.near(&camera, None));
-        let lights = self.light_room.lights(&self.scene.file.light(), self.scene.origin_mm, light_scale);
-        self.lights.write(0, &lights)?;
-        let views = self.light_room.views(&self.scene, &camera, &self.cloth);
-        self.shadow_views.write(0, &views)?;
-        if let Some(pass) = self.shadow_map.pass(views.len() as u32) {
+        let near = self.cloth.near(&camera, None);
+        let light_scale = light_scale(&self.scene, &self.environment, near);
+        let (reaching, missing) = lights_that_reach(&self.scene, near);
+        self.stats.add_left_out_of_frame(
+            missing
+                .into_iter()
+                .map(|index| (format!("light {index}"), "its cone misses the cloth".to_owned())),
+        );
+        let lights = self.light_room.lights(&reaching, self.scene.origin_mm, light_scale);
+        if let Some(buffer) = &self.lights {
+            buffer.write(0, &lights)?;
+        }
+        let views = self.light_room.views(&self.scene, &reaching, &camera, &self.cloth);
+        if let Some(buffer) = &self.shadow_views {
+            buffer.write(0, &views)?;
+        }
+        if let Some(pass) = self.shadow_map.as_ref().and_then(|map| map.pass(views.len() as u32)) {
             let timings = self.request.profile.then_some(&mut passes);
             taken += run(&mut self.graph, &self.device, &[pass], timings)?;
         }
         for index in 0..frames {
             let light = (&self.environment, light_scale);
+            let light_count = reaching.len().min(self.light_room.lights) as u32;
             let frame = upload::frame(&self.scene, &camera, light, &self.request, index);
+            let frame = Frame { light_count, ..frame };
             self.frame.write(0, &[frame])?;
             let timings = self.request.profile.then_some(&mut passes);
             taken += self.draw_frame((index, frames), light_scale, timings, progress)?;
-            if index == 0 && self.request.statistics {
-                self.stats.set_counts(self.statistics.read_staged()?);
+            if let Some(statistics) = self.statistics.as_ref().filter(|_| index == 0) {
+                self.stats.set_counts(statistics.read_staged()?, unseen);
             }
         }
         self.stats.add_frame(taken, passes);
         let picture = self.read_picture()?;
         self.stats.inspect(&picture.linear, light_scale);
         Ok(picture)
+    }
+
+    /// Decides on the draws of a picture and returns how many pieces of yarn are in none of them.
+    fn plan(&mut self, camera: &Camera) -> Result<u64, VulkanError> {
+        let scene = &self.scene;
+        let planned = Planned::new(scene, camera, &self.request, self.device.is_cpu());
+        self.fibers.plan(|fabric, strands, manner| planned.draws(fabric, strands, manner))?;
+        let left_out = || scene.fabrics.iter().enumerate().filter(|(index, _)| planned.unseen(*index));
+        self.stats.add_left_out_of_frame(left_out().map(|(index, fabric)| {
+            (format!("fabric {index} ({})", fabric.name), "all of it is outside the picture".to_owned())
+        }));
+        Ok(left_out().map(|(_, fabric)| fabric.strands.pieces.len() as u64).sum())
     }
 
     /// Draws jittered frame `index` of `count` and adds it to the picture.

@@ -247,6 +247,14 @@ pub struct Frame {
     pub shading_spacing_px: f32,
     /// Width of a ply below which it is shaded at its vertices.
     pub vertex_shaded_px: f32,
+    /// Lights of which anything may arrive in this picture.
+    pub light_count: u32,
+    /// Not used.
+    pub padding_0: u32,
+    /// Not used.
+    pub padding_1: u32,
+    /// Not used.
+    pub padding_2: u32,
 }
 
 /// Counted by the control stage.

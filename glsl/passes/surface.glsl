@@ -228,7 +228,8 @@ vec3 ambient(Strand strand, vec3 to_eye) {
 
 vec3 shade(Strand strand, vec3 to_eye) {
     vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < LIGHT_COUNT; ++i) {
+    // Without lights their buffer is not there: src/vulkan/trim.rs takes out what this constant decides.
+    for (uint i = 0u; LIGHT_COUNT > 0u && i < min(LIGHT_COUNT, frame.light_count); ++i) {
         Arriving arriving = LOCAL_LIGHTS ? light_at(lights[i], strand.position)
                                          : Arriving(lights[i].toward, lights[i].strength);
         vec3 scattered = scatter(strand, arriving.to_light, to_eye);

@@ -127,6 +127,10 @@ struct Frame {
     uint index;                 // of the jittered frame
     float shading_spacing_px;   // between the places of a pixel at which one thing is shaded
     float vertex_shaded_px;     // width of a ply below which it is shaded at its vertices
+    uint light_count;           // of which anything may arrive in this picture
+    uint padding_0;
+    uint padding_1;
+    uint padding_2;
 };
 
 // Counted by the control stage; each count is two words, low then high.

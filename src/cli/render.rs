@@ -67,6 +67,11 @@ fn explain(stats: &Stats) {
         say!("built: {what}, {bytes} bytes");
     }
     for (what, why) in &stats.left_out {
-        say!("left out: {what}, because {why}");
+        let saved = stats.left_out_bytes.get(what);
+        let saved = saved.map_or_else(String::new, |bytes| format!(": {bytes} bytes saved"));
+        say!("left out: {what}, because {why}{saved}");
+    }
+    for (what, why) in &stats.left_out_of_frame {
+        say!("left out of the picture: {what}, because {why}");
     }
 }

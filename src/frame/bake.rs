@@ -60,9 +60,7 @@ impl Bakes {
         let by_distance = features.distance_occlusion || features.texture_occlusion && features.ambient;
         let texels = quality.occlusion_texels.unwrap_or(OCCLUSION_ACROSS);
         let texture = || bake_occlusion_table(yarn, extinction_per_mm, texels);
-        let size = quality
-            .self_shadow_texels
-            .map_or_else(SelfShadowSize::default, |across| SelfShadowSize { across, slices: across / 4 });
+        let size = SelfShadowSize::of(quality.self_shadow_texels);
         let shadow = || shadow_radius_mm(&section, extinction_per_mm);
         let hides = features.shadow_map || features.yarn_occlusion;
         let depth = || bake_self_shadow(yarn, size);

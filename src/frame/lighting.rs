@@ -6,10 +6,14 @@ use crate::math::bounds::Bounds;
 use crate::precompute::environment::Environment;
 use crate::scene::Scene;
 use crate::scene::camera::Camera;
+use crate::scene::features::Features;
 use crate::scene::file::DebugView;
 use crate::scene::light::{self, LightTable};
+use crate::scene::light_reach::reaches;
+use crate::scene::needs::{Need, any_needs};
 use crate::scene::shadow::{self, shadow_views};
 use crate::vulkan::{Buffer, Device, MemoryKind, VulkanError, vk};
+use crate::yarn::flyaway::Flyaways;
 use glam::{DMat4, DVec3};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -33,6 +37,12 @@ impl LightRoom {
         Self { lights: shining().count(), local: shining().any(LightTable::is_local), views }
     }
 
+    /// What a scene with these lights and fabrics needs.
+    pub fn of(tables: &[LightTable], features: &[Features]) -> Self {
+        let room = Self::needed(tables, any_needs(features, Need::ShadowMap));
+        if any_needs(features, Need::Lights) { room } else { Self { lights: 0, ..room } }
+    }
+
     /// One line that says why `needed` does not fit, if it does not.
     pub fn lacks(&self, needed: &Self) -> Option<String> {
         if needed.lights > self.lights {
@@ -48,19 +58,19 @@ impl LightRoom {
         })
     }
 
-    /// Buffers for the lights and for their views. A descriptor must be there even where nothing reads it: one
-    /// stands in.
+    /// Buffers for the lights and for their views, where there are any.
     ///
     /// # Errors
     /// Those of the device.
-    pub fn buffers(&self, device: &Arc<Device>) -> Result<[Buffer; 2], VulkanError> {
+    pub fn buffers(&self, device: &Arc<Device>) -> Result<[Option<Buffer>; 2], VulkanError> {
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
-        let bytes = |size: usize, count: usize| (size * count.max(1)) as u64;
-        let lights = bytes(size_of::<Light>(), self.lights);
-        let views = bytes(size_of::<ShadowView>(), self.views as usize);
+        let buffer = |name: &str, size: usize, count: usize| {
+            let make = || Buffer::new(device, name, (size * count) as u64, storage, MemoryKind::Upload);
+            (count > 0).then(make).transpose()
+        };
         Ok([
-            Buffer::new(device, "lights", lights, storage, MemoryKind::Upload)?,
-            Buffer::new(device, "shadow views", views, storage, MemoryKind::Upload)?,
+            buffer("lights", size_of::<Light>(), self.lights)?,
+            buffer("shadow views", size_of::<ShadowView>(), self.views as usize)?,
         ])
     }
 
@@ -90,13 +100,18 @@ impl LightRoom {
     }
 
     /// What the lights see of the cloth that the camera sees, in the order of their views.
-    pub fn views(&self, scene: &Scene, camera: &Camera, cloth: &Cloth) -> Vec<ShadowView> {
+    pub fn views(
+        &self,
+        scene: &Scene,
+        tables: &[LightTable],
+        camera: &Camera,
+        cloth: &Cloth,
+    ) -> Vec<ShadowView> {
         if self.views == 0 {
             return Vec::new();
         }
         let resolution = scene.file.shadow.resolution;
-        let lights = scene.file.light();
-        let shining = lights.iter().filter(|light| light.shines());
+        let shining = tables.iter().filter(|light| light.shines());
         shining
             .flat_map(|light| {
                 let near = cloth.near(camera, Some(light));
@@ -105,6 +120,18 @@ impl LightRoom {
             .map(|view| gpu_view(&view))
             .collect()
     }
+}
+
+/// The scene's lights that shine and of which something may arrive at cloth in this box, and the places in the scene of
+/// those of which nothing does.
+pub fn lights_that_reach(scene: &Scene, (low, high): Bounds) -> (Vec<LightTable>, Vec<usize>) {
+    // Hairs stand out of the box.
+    let reach = scene.fabrics.iter().map(|f| Flyaways::new(&f.yarn).reach_mm).fold(0.0, f64::max);
+    let around = (low - DVec3::splat(reach), high + DVec3::splat(reach));
+    let shining = scene.file.light().into_iter().enumerate().filter(|(_, light)| light.shines());
+    let (reaching, missing): (Vec<_>, Vec<_>) =
+        shining.partition(|(_, light)| reaches(light, scene.origin_mm, around));
+    (reaching.into_iter().map(|(_, light)| light).collect(), missing.into_iter().map(|(i, _)| i).collect())
 }
 
 /// Brightest light between which half floats hold what yarn sends back as they are: all of its highlights, and a

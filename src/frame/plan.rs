@@ -40,6 +40,11 @@ impl<'a> Planned<'a> {
         Self { scene, seen, spacing_px: request.sampling.spacing_px(), is_cpu }
     }
 
+    /// Whether no piece of a fabric is in view.
+    pub fn unseen(&self, fabric: usize) -> bool {
+        self.seen[fabric].is_none()
+    }
+
     /// Draws of one fabric's strands, fit for the device. What the picture cannot hold is not drawn at all.
     pub fn draws(&self, fabric: usize, strands: Strands, manner: Manner) -> DrawPlan {
         let quality = &self.scene.file.quality;

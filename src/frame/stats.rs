@@ -50,6 +50,10 @@ pub struct Stats {
     pub gpu_bytes: BTreeMap<String, u64>,
     /// What the scene does not need, and why.
     pub left_out: BTreeMap<String, String>,
+    /// Bytes of device memory that it would take, where it is more than code.
+    pub left_out_bytes: BTreeMap<String, u64>,
+    /// What the last picture did without, and why.
+    pub left_out_of_frame: BTreeMap<String, String>,
     /// Pixels that are not a number or infinite.
     pub nan_pixels: u64,
     /// Pixels with a value that was clamped on its way.
@@ -81,6 +85,8 @@ impl Stats {
             precompute_ms: BTreeMap::new(),
             gpu_bytes: BTreeMap::new(),
             left_out: BTreeMap::new(),
+            left_out_bytes: BTreeMap::new(),
+            left_out_of_frame: BTreeMap::new(),
             nan_pixels: 0,
             clamped_pixels: 0,
             frames: Vec::new(),
@@ -91,19 +97,33 @@ impl Stats {
         *self.precompute_ms.entry(name.to_owned()).or_default() += ms(taken);
     }
 
-    pub(super) fn add_left_out(&mut self, features: &Features) {
-        let entries = features.left_out().into_iter().map(|(what, why)| (what.to_owned(), why.to_owned()));
-        self.left_out.extend(entries);
+    /// Takes note of what a fabric of these features leaves out; `saved` knows the bytes.
+    pub(super) fn add_left_out(&mut self, features: &Features, saved: impl Fn(&str) -> Option<u64>) {
+        for (what, why) in features.left_out() {
+            self.left_out.insert(what.to_owned(), why.to_owned());
+            if let Some(bytes) = saved(what) {
+                let sum = self.left_out_bytes.entry(what.to_owned()).or_default();
+                // Each fabric has its own, but for what the frame has once.
+                let shared = matches!(what, "shadow_map" | "statistics");
+                *sum = if shared { bytes } else { *sum + bytes };
+            }
+        }
     }
 
-    pub(super) fn set_counts(&mut self, counted: Vec<Statistics>) {
+    /// Takes note of what the last picture does without.
+    pub(super) fn add_left_out_of_frame(&mut self, entries: impl Iterator<Item = (String, String)>) {
+        self.left_out_of_frame.extend(entries);
+    }
+
+    /// Takes note of what was counted; `unseen` pieces of yarn never came to the device.
+    pub(super) fn set_counts(&mut self, counted: Vec<Statistics>, unseen: u64) {
         let Some(counted) = counted.first() else { return };
         let segments = counted.fiber_segments();
         self.fiber_segments = Some(segments);
         // The geometry stage widens each straight piece into a strip of two triangles.
         self.triangles = Some(2 * segments);
         self.patches_drawn = Some(counted.patches_drawn.into());
-        self.patches_culled = Some(counted.patches_culled.into());
+        self.patches_culled = Some(u64::from(counted.patches_culled) + unseen);
     }
 
     pub(super) fn add_frame(&mut self, taken: Taken, passes: HashMap<&'static str, Duration>) {
@@ -196,6 +216,8 @@ mod tests {
                 precompute_ms: BTreeMap::new(),
                 gpu_bytes: BTreeMap::new(),
                 left_out: BTreeMap::new(),
+                left_out_bytes: BTreeMap::new(),
+                left_out_of_frame: BTreeMap::new(),
                 nan_pixels: 0,
                 clamped_pixels: 0,
                 frames: Vec::new(),

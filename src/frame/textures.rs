@@ -11,25 +11,20 @@ const READ: vk::ImageUsageFlags = vk::ImageUsageFlags::from_raw(
     vk::ImageUsageFlags::SAMPLED.as_raw() | vk::ImageUsageFlags::TRANSFER_DST.as_raw(),
 );
 
-/// The table of light inside the yarn, as a volume. Without one a texel stands in that no shader reads.
+/// The table of light inside the yarn, as a volume.
 ///
 /// # Errors
 /// Those of the device.
-pub fn self_shadow_image(
-    device: &Arc<Device>,
-    table: Option<&SelfShadowTable>,
-) -> Result<Image, VulkanError> {
-    let (extent, depths) = table.map_or(([1; 3], &[f16::ZERO][..]), |t| (t.size.extent(), &t.depths[..]));
-    half_image(device, "self-shadow table", extent, true, depths)
+pub fn self_shadow_image(device: &Arc<Device>, table: &SelfShadowTable) -> Result<Image, VulkanError> {
+    half_image(device, "self-shadow table", table.size.extent(), true, &table.depths)
 }
 
-/// The texture of ambient light inside the yarn, or a texel that stands in.
+/// The texture of ambient light inside the yarn.
 ///
 /// # Errors
 /// Those of the device.
-pub fn occlusion_image(device: &Arc<Device>, table: Option<&OcclusionTable>) -> Result<Image, VulkanError> {
-    let (across, visibilities) = table.map_or((1, &[f16::ONE][..]), |t| (t.across, &t.visibilities[..]));
-    half_image(device, "occlusion texture", [across, across, 1], false, visibilities)
+pub fn occlusion_image(device: &Arc<Device>, table: &OcclusionTable) -> Result<Image, VulkanError> {
+    half_image(device, "occlusion texture", [table.across, table.across, 1], false, &table.visibilities)
 }
 
 fn half_image(
@@ -46,14 +41,12 @@ fn half_image(
     Ok(image)
 }
 
-/// The three images of a core texture. Without one the shaders never read them, but a descriptor must be there:
-/// one texel stands in.
+/// The three images of a core texture.
 ///
 /// # Errors
 /// Those of the device.
-pub fn core_images(device: &Arc<Device>, core: Option<&CoreTexture>) -> Result<[Image; 3], VulkanError> {
-    let none = [CoreMip { columns: 1, rows: 1, texels: vec![Moments::default(); 2] }];
-    let (mips, layers) = core.map_or((&none[..], 2), |core| (&core.mips[..], core.layers));
+pub fn core_images(device: &Arc<Device>, core: &CoreTexture) -> Result<[Image; 3], VulkanError> {
+    let (mips, layers) = (&core.mips[..], core.layers);
     let image = |name, part: fn(&Moments) -> [f64; 4]| {
         let image = Image::new(
             device,

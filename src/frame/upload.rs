@@ -5,10 +5,10 @@ use super::bake::Bakes;
 use super::textures;
 use crate::gpu_types::{ControlPoint, Fiber, Frame, LENGTH_STRIPE, Segment, Yarn};
 use crate::math::frame::octahedral_from_normal;
-use crate::passes::fibers::FabricBuffers;
+use crate::passes::fiber_sets::FabricBuffers;
 use crate::precompute::environment::{Environment, project_environment};
 use crate::precompute::occlusion_fit::OcclusionFit;
-use crate::precompute::scattering_table::azimuthal_constants;
+use crate::precompute::scattering_table::{ScatteringTable, azimuthal_constants};
 use crate::scene::camera::Camera;
 use crate::scene::file::QualityTable;
 use crate::scene::{Fabric, Scene};
@@ -179,6 +179,11 @@ pub fn frame(
         index: index as u32,
         shading_spacing_px: request.sampling.frame_spacing_px() as f32,
         vertex_shaded_px: (quality.vertex_shaded_samples * spacing_px) as f32,
+        // The lights of a picture are known where it is drawn.
+        light_count: 0,
+        padding_0: 0,
+        padding_1: 0,
+        padding_2: 0,
     }
 }
 
@@ -201,8 +206,8 @@ pub struct FabricBakes<'a> {
     pub skies: Option<&'a [[f16; 4]]>,
 }
 
-/// Uploads a fabric whose pieces come after `first_piece` others, once. Without a core the shaders never read its
-/// texture, but a descriptor must be there: one texel stands in.
+/// Uploads a fabric whose pieces come after `first_piece` others, once: what was baked and nothing in its place where
+/// nothing was.
 ///
 /// # Errors
 /// Those of the device.
@@ -217,18 +222,26 @@ pub fn fabric_buffers(
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
     let points = control_points(fabric, scene.origin_mm);
     let yarn = yarn(fabric, &scene.file.quality, bakes, first_piece, scene.file.seed);
-    // Without the physical model the shaders never read its table, but a descriptor must be there.
-    let none = vec![[0.0; 4]];
-    let scattering = bakes.scattering.as_ref().map_or(&none, |table| &table.values);
+    let scattering =
+        |table: &ScatteringTable| Buffer::upload(device, "scattering table", usage, &table.values);
+    let sky = |skies: &[[f16; 4]]| Buffer::upload(device, "skies", usage, skies);
     Ok(FabricBuffers {
         control_points: Buffer::upload(device, "control points", usage, &points)?,
         segments: Buffer::upload(device, "yarn segments", usage, &segments(fabric))?,
         fibers: Buffer::upload(device, "fibers", usage, &fibers(cross_section))?,
         yarn: Buffer::upload(device, "yarn parameters", usage, &[yarn])?,
-        core: textures::core_images(device, bakes.core.as_ref())?,
-        scattering: Buffer::upload(device, "scattering table", usage, scattering)?,
-        self_shadow: textures::self_shadow_image(device, bakes.self_shadow.as_ref())?,
-        occlusion: textures::occlusion_image(device, bakes.occlusion_texture.as_ref())?,
-        skies: Buffer::upload(device, "skies", usage, skies.unwrap_or(&[[f16::ZERO; 4]]))?,
+        core: bakes.core.as_ref().map(|core| textures::core_images(device, core)).transpose()?,
+        scattering: bakes.scattering.as_ref().map(scattering).transpose()?,
+        self_shadow: bakes
+            .self_shadow
+            .as_ref()
+            .map(|t| textures::self_shadow_image(device, t))
+            .transpose()?,
+        occlusion: bakes
+            .occlusion_texture
+            .as_ref()
+            .map(|t| textures::occlusion_image(device, t))
+            .transpose()?,
+        skies: skies.map(sky).transpose()?,
     })
 }

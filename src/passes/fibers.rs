@@ -1,59 +1,19 @@
 //! Expands yarn into fibers and shades them: vertex, tessellation, geometry and fragment stages.
 
 use super::draw_plan::DrawPlan;
+use super::fiber_sets::{FabricBuffers, FabricSamplers, FrameBuffers, fabric_layout, frame_set};
 use super::strand_pipeline::{Manner, Strands, strand_pipeline};
 use super::targets::Targets;
 use crate::graph::{Pass, Use};
 use crate::scene::features::Features;
 use crate::shaders::ShaderSet;
 use crate::vulkan::{
-    Access, Binding, Buffer, ColorTarget, Commands, DepthTarget, DescriptorLayout, DescriptorSet, Device,
-    Image, ImageState, Pipeline, Rendering, Resource, Sampler, SamplerInfo, VulkanError, vk,
+    Access, ColorTarget, Commands, DepthTarget, DescriptorLayout, DescriptorSet, Device, Image, ImageState,
+    Pipeline, Rendering, VulkanError, vk,
 };
 use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
-
-/// Stages that read a fabric's buffers; compute stands for the test kernels, which share the layout.
-const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
-    vk::ShaderStageFlags::ALL_GRAPHICS.as_raw() | vk::ShaderStageFlags::COMPUTE.as_raw(),
-);
-
-/// What one fabric's shaders read, in the order of set 1's bindings in `glsl/passes/bindings.glsl`.
-pub struct FabricBuffers {
-    /// [`crate::gpu_types::ControlPoint`]s.
-    pub control_points: Buffer,
-    /// [`crate::gpu_types::Segment`]s.
-    pub segments: Buffer,
-    /// [`crate::gpu_types::Fiber`]s.
-    pub fibers: Buffer,
-    /// One [`crate::gpu_types::Yarn`].
-    pub yarn: Buffer,
-    /// The core texture: normals, shape and spread.
-    pub core: [Image; 3],
-    /// The physical model's tables, R and then TT: four floats an entry.
-    pub scattering: Buffer,
-    /// Optical depth over the yarn's cross-section, by the light's angle: a volume.
-    pub self_shadow: Image,
-    /// Ambient light over the yarn's cross-section.
-    pub occlusion: Image,
-    /// What is open of the sky at each control point: four halves.
-    pub skies: Buffer,
-}
-
-/// What all shaders read of one frame, in the order of set 0's bindings.
-pub struct FrameBuffers {
-    /// One [`crate::gpu_types::Frame`], uniform.
-    pub frame: Buffer,
-    /// One [`crate::gpu_types::Statistics`], counted into.
-    pub statistics: Buffer,
-    /// [`crate::gpu_types::Light`]s, at least one.
-    pub lights: Buffer,
-    /// [`crate::gpu_types::ShadowView`]s, at least one.
-    pub shadow_views: Buffer,
-    /// What they see: two layers at least, so that its view is one of layers.
-    pub shadow_map: Image,
-}
 
 /// One pipeline's draws of one fabric.
 struct FabricDraw {
@@ -72,60 +32,35 @@ pub struct FibersPass {
     device: Arc<Device>,
     shaders: ShaderSet,
     frame_layout: DescriptorLayout,
-    fabric_layout: DescriptorLayout,
     frame: FrameBuffers,
     frame_set: DescriptorSet,
-    core_sampler: Sampler,
-    table_sampler: Sampler,
+    samplers: FabricSamplers,
     pipelines: HashMap<(Features, Strands, Manner), Pipeline>,
     samples: vk::SampleCountFlags,
-    fabrics: Vec<DescriptorSet>,
+    fabrics: Vec<(Features, DescriptorLayout, DescriptorSet)>,
     draws: Vec<FabricDraw>,
 }
 
 impl FibersPass {
-    /// Builds the pass around one frame's buffers, for frames of `samples`.
+    /// Builds the pass around one frame's buffers, for fabrics of these features and frames of
+    /// `samples`.
     ///
     /// # Errors
-    /// Those of the device.
+    /// Those of the device; buffers that no feature asks for, or that are missing.
     pub fn new(
         device: &Arc<Device>,
         frame: FrameBuffers,
+        features: &[Features],
         samples: vk::SampleCountFlags,
     ) -> Result<Self, VulkanError> {
-        let binding = |binding, kind| Binding { binding, kind, stages: STAGES };
-        let storage = vk::DescriptorType::STORAGE_BUFFER;
-        let uniform = vk::DescriptorType::UNIFORM_BUFFER;
-        let texture = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
-        let frame_kinds = [uniform, storage, storage, storage, texture];
-        let frame_bindings: [_; 5] = std::array::from_fn(|i| binding(i as u32, frame_kinds[i]));
-        let frame_layout = DescriptorLayout::new(device, "frame", &frame_bindings)?;
-        let kind_of = |i| if i < 4 || i == 7 || i == 10 { storage } else { texture };
-        let fabric_bindings: [_; 11] = std::array::from_fn(|i| binding(i as u32, kind_of(i)));
-        let fabric_layout = DescriptorLayout::new(device, "fabric", &fabric_bindings)?;
-        // Bits, not numbers: nothing to blend.
-        let nearest = SamplerInfo { filter: vk::Filter::NEAREST, ..Default::default() };
-        let exact = Sampler::new(device, "shadow map", &nearest)?;
-        let resources = [
-            (0, Resource::Uniform(&frame.frame)),
-            (1, Resource::Storage(&frame.statistics)),
-            (2, Resource::Storage(&frame.lights)),
-            (3, Resource::Storage(&frame.shadow_views)),
-            (4, Resource::Sampled(frame.shadow_map.view(), &exact)),
-        ];
-        // Along the core the texture tiles.
-        let [repeat, clamp] = [vk::SamplerAddressMode::REPEAT, vk::SamplerAddressMode::CLAMP_TO_EDGE];
-        let sampling = SamplerInfo { address: [repeat, clamp, clamp], ..Default::default() };
-        let frame_set = DescriptorSet::new(&frame_layout, "frame", &resources)?;
+        let (frame_layout, frame_set) = frame_set(device, &frame, features)?;
         Ok(Self {
             device: device.clone(),
             shaders: ShaderSet::default(),
             frame_layout,
-            fabric_layout,
             frame,
             frame_set,
-            core_sampler: Sampler::new(device, "core", &sampling)?,
-            table_sampler: Sampler::new(device, "table", &SamplerInfo::default())?,
+            samplers: FabricSamplers::default(),
             pipelines: HashMap::new(),
             samples,
             fabrics: Vec::new(),
@@ -139,14 +74,14 @@ impl FibersPass {
         Self { shaders, ..self }
     }
 
-    /// Layouts of sets 0 and 1, for kernels that read the same buffers.
-    pub fn layouts(&self) -> [&DescriptorLayout; 2] {
-        [&self.frame_layout, &self.fabric_layout]
+    /// Layouts of sets 0 and 1 of a fabric, for kernels that read the same buffers.
+    pub fn layouts(&self, fabric: usize) -> Option<[&DescriptorLayout; 2]> {
+        Some([&self.frame_layout, &self.fabrics.get(fabric)?.1])
     }
 
     /// Sets 0 and 1 of a fabric, for kernels that read the same buffers.
     pub fn sets(&self, fabric: usize) -> Option<[&DescriptorSet; 2]> {
-        Some([&self.frame_set, self.fabrics.get(fabric)?])
+        Some([&self.frame_set, &self.fabrics.get(fabric)?.2])
     }
 
     /// Adds a fabric to what is drawn: its core fibers, then those drawn one by one.
@@ -154,23 +89,14 @@ impl FibersPass {
     /// # Errors
     /// Those of the device.
     pub fn add_fabric(&mut self, buffers: &FabricBuffers, features: Features) -> Result<(), VulkanError> {
-        let sampled = |image: usize| Resource::Sampled(buffers.core[image].view(), &self.core_sampler);
-        let resources = [
-            (0, Resource::Storage(&buffers.control_points)),
-            (1, Resource::Storage(&buffers.segments)),
-            (2, Resource::Storage(&buffers.fibers)),
-            (3, Resource::Storage(&buffers.yarn)),
-            (4, sampled(0)),
-            (5, sampled(1)),
-            (6, sampled(2)),
-            (7, Resource::Storage(&buffers.scattering)),
-            (8, Resource::Sampled(buffers.self_shadow.view(), &self.table_sampler)),
-            (9, Resource::Sampled(buffers.occlusion.view(), &self.table_sampler)),
-            (10, Resource::Storage(&buffers.skies)),
-        ];
-        let set = DescriptorSet::new(&self.fabric_layout, "fabric", &resources)?;
+        let alike = self.fabrics.iter().find(|(other, ..)| *other == features);
+        let layout = match alike {
+            Some((_, layout, _)) => layout.clone(),
+            None => fabric_layout(&self.device, &features)?,
+        };
+        let set = self.samplers.fabric_set(&self.device, &layout, buffers)?;
         let fabric = self.fabrics.len();
-        self.fabrics.push(set);
+        self.fabrics.push((features, layout.clone(), set));
         // Cores first: what lies behind them is then never shaded.
         let drawn = [
             (Strands::Core, Manner::AtPixels, features.core_fibers_drawn),
@@ -192,7 +118,6 @@ impl FibersPass {
     /// # Errors
     /// Those of the device.
     pub fn plan(&mut self, plan: impl Fn(usize, Strands, Manner) -> DrawPlan) -> Result<(), VulkanError> {
-        let layouts = [&self.frame_layout, &self.fabric_layout];
         for draw in &mut self.draws {
             draw.plan = plan(draw.fabric, draw.strands, draw.manner);
             if draw.pipeline.is_some() || draw.plan.draw_count() == 0 {
@@ -203,14 +128,9 @@ impl FibersPass {
                 Some(pipeline) => pipeline.clone(),
                 None => {
                     let what = (draw.strands, draw.manner);
-                    strand_pipeline(
-                        &self.device,
-                        &self.shaders,
-                        &draw.features,
-                        what,
-                        self.samples,
-                        &layouts,
-                    )?
+                    let layouts = [&self.frame_layout, &self.fabrics[draw.fabric].1];
+                    let (device, shaders, features) = (&self.device, &self.shaders, &draw.features);
+                    strand_pipeline(device, shaders, features, what, self.samples, &layouts)?
                 }
             };
             self.pipelines.insert(key, built.clone());
@@ -242,10 +162,11 @@ impl FibersPass {
             begun(color, ImageState::COLOR_TARGET),
             begun(&targets.depth, ImageState::DEPTH_TARGET),
             Use::Buffer(&self.frame.frame, Access::GRAPHICS_READ),
-            Use::Buffer(&self.frame.lights, Access::GRAPHICS_READ),
-            Use::Buffer(&self.frame.statistics, COUNTING),
-            Use::Image(&self.frame.shadow_map, ImageState::SAMPLED_GRAPHICS),
         ];
+        let FrameBuffers { lights, statistics, shadow_map, .. } = &self.frame;
+        uses.extend(lights.iter().map(|lights| Use::Buffer(lights, Access::GRAPHICS_READ)));
+        uses.extend(statistics.iter().map(|counts| Use::Buffer(counts, COUNTING)));
+        uses.extend(shadow_map.iter().map(|map| Use::Image(map, ImageState::SAMPLED_GRAPHICS)));
         let resolved = targets.multisampled.as_ref().filter(|_| last).map(|_| &targets.frame);
         if let Some(frame) = resolved {
             uses.push(Use::Discard(frame, ImageState::COLOR_TARGET));
@@ -283,7 +204,7 @@ impl FibersPass {
             before += count;
             let Some(pipeline) = draws.pipeline.as_ref().filter(|_| start < end) else { continue };
             commands.bind_pipeline(pipeline);
-            commands.bind_sets(pipeline, &[&self.frame_set, &self.fabrics[draws.fabric]]);
+            commands.bind_sets(pipeline, &[&self.frame_set, &self.fabrics[draws.fabric].2]);
             for draw in draws.plan.draws().take(end).skip(start) {
                 commands.draw(draw.patches, draw.groups, draw.first_patch, draw.first_group);
             }

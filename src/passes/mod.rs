@@ -1,6 +1,7 @@
 //! One file per pass.
 
 pub mod draw_plan;
+pub mod fiber_sets;
 pub mod fibers;
 mod image_kernel;
 pub mod resolve;

@@ -9,7 +9,7 @@ use crate::scene::features::Features;
 use crate::vulkan::{
     Access, Buffer, ColorTarget, Commands, DepthState, DepthTarget, DescriptorLayout, DescriptorSet, Device,
     GraphicsPipelineInfo, Image, ImageInfo, ImageState, ImageView, Pipeline, Rendering, ShaderStage,
-    VulkanError, vk,
+    VulkanError, trimmed, vk,
 };
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -21,20 +21,18 @@ const MAP_FORMAT: vk::Format = vk::Format::R32G32_UINT;
 pub struct ShadowMap {
     /// What shading reads.
     pub image: Image,
-    depth: Option<Image>,
+    depth: Image,
     layers: Vec<ImageView>,
     resolution: u32,
 }
 
 impl ShadowMap {
-    /// Makes a map of `resolution` texels a side with `views` layers. Without any, two texels stand in that no
-    /// shader reads.
+    /// Makes a map of `resolution` texels a side with `views` layers, at least one.
     ///
     /// # Errors
     /// A size beyond the device's limits, or no memory for it.
     pub fn new(device: &Arc<Device>, resolution: u32, views: u32) -> Result<Self, VulkanError> {
         use vk::ImageUsageFlags as Usage;
-        let resolution = if views == 0 { 1 } else { resolution };
         let extent = [resolution, resolution, 1];
         // A view of several layers is what the shader declares, also where there is but one.
         let map = ImageInfo {
@@ -53,7 +51,7 @@ impl ShadowMap {
             ..Default::default()
         };
         let image = Image::new(device, &map)?;
-        let depth = (views > 0).then(|| Image::new(device, &depth)).transpose()?;
+        let depth = Image::new(device, &depth)?;
         let layers = (0..views).map(|view| image.subview(0, view)).collect::<Result<_, _>>()?;
         Ok(Self { image, depth, layers, resolution })
     }
@@ -113,7 +111,7 @@ impl ShadowMapPass {
 
     /// Draws the first `views` views; none where nothing casts a shadow.
     pub fn pass(&self, views: u32) -> Option<Pass<'_>> {
-        let depth = self.map.depth.as_ref().filter(|_| views > 0)?;
+        let depth = (views > 0).then_some(&self.map.depth)?;
         let uses = vec![
             Use::Discard(&self.map.image, ImageState::COLOR_TARGET),
             Use::Discard(depth, ImageState::DEPTH_TARGET),
@@ -155,13 +153,13 @@ fn pipeline(
 ) -> Result<Pipeline, VulkanError> {
     let one = vk::SampleCountFlags::TYPE_1;
     let constants = specialization(features, one, Manner::AtPixels);
-    let stage = |stage, file| -> Result<_, VulkanError> {
-        Ok(ShaderStage { stage, spirv: spirv(file)?, constants: &constants })
-    };
+    let stage = |stage, file| -> Result<_, VulkanError> { Ok((stage, trimmed(spirv(file)?, &constants)?)) };
     let stages = [
         stage(vk::ShaderStageFlags::VERTEX, "passes/shadow_map.vert")?,
         stage(vk::ShaderStageFlags::FRAGMENT, "passes/shadow_map.frag")?,
     ];
+    let stages =
+        stages.each_ref().map(|(stage, spirv)| ShaderStage { stage: *stage, spirv, constants: &constants });
     Pipeline::graphics(
         device,
         &GraphicsPipelineInfo {

@@ -6,7 +6,7 @@ use crate::scene::features::Features;
 use crate::shaders::ShaderSet;
 use crate::vulkan::{
     DepthState, DescriptorLayout, Device, GraphicsPipelineInfo, Pipeline, ShaderStage,
-    SpecializationConstants, VulkanError, vk,
+    SpecializationConstants, VulkanError, trimmed, vk,
 };
 use std::sync::Arc;
 
@@ -75,11 +75,12 @@ pub fn strand_pipeline(
     let stages = strands
         .stages()
         .iter()
-        .map(|&(stage, file)| {
-            let spirv = found(file, shaders.get(file))?;
-            Ok(ShaderStage { stage, spirv, constants: &constants })
-        })
+        .map(|&(stage, file)| Ok((stage, trimmed(found(file, shaders.get(file))?, &constants)?)))
         .collect::<Result<Vec<_>, VulkanError>>()?;
+    let stages: Vec<_> = stages
+        .iter()
+        .map(|(stage, spirv)| ShaderStage { stage: *stage, spirv, constants: &constants })
+        .collect();
     Pipeline::graphics(
         device,
         &GraphicsPipelineInfo {

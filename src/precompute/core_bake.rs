@@ -26,13 +26,16 @@ pub struct Grid {
     pub slope_per_radian: f64,
 }
 
+/// Texels along a turn of the core, for each across it.
+pub const COLUMNS_PER_ROW: u32 = 4;
+
 impl Grid {
     /// The grid for a yarn whose fibers reach no farther than `most_radius`.
     pub fn new(yarn: &YarnParams, rows: u32, most_radius: f64) -> Self {
         let fiber_radius = yarn.fiber_radius_mm() / yarn.round_ply_radius_mm();
         let turns_per_mm = yarn.ply_turns_per_mm() + yarn.fiber_turns_per_mm();
         Self {
-            columns: 4 * rows as usize,
+            columns: (COLUMNS_PER_ROW * rows) as usize,
             rows: rows as usize,
             extent: (most_radius + fiber_radius).max(1e-6),
             fiber_radius,

@@ -1,7 +1,7 @@
 //! The texture of a core fiber: what is seen of the fibers that it stands for (Wu & Yuksel 2019, Sec. 3.2 and
 //! Fig. 5).
 
-use super::core_bake::{Grid, PlySurface};
+use super::core_bake::{COLUMNS_PER_ROW, Grid, PlySurface};
 use crate::math::strip::strip_normals;
 use crate::yarn::detail::{CORE_LEVELS, ranks_at_level};
 use crate::yarn::params::YarnParams;
@@ -182,6 +182,18 @@ fn mip_chain(base: CoreMip, layers: usize) -> Vec<CoreMip> {
         mips.push(mip);
     }
     mips
+}
+
+/// Texels of all mips and layers of a core texture of so many rows, for a yarn of so many plies.
+pub fn core_texels(rows: u32, plies: u32) -> u64 {
+    let layers = u64::from(plies * CORE_LEVELS + 1);
+    let [mut columns, mut rows] = [COLUMNS_PER_ROW * rows, rows].map(u64::from);
+    let mut texels = columns * rows;
+    while rows > u64::from(FEWEST_ROWS) {
+        [columns, rows] = [columns, rows].map(|side| (side / 2).max(1));
+        texels += columns * rows;
+    }
+    layers * texels
 }
 
 fn halved(mip: &CoreMip, layers: usize) -> CoreMip {

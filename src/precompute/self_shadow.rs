@@ -34,6 +34,11 @@ impl Default for SelfShadowSize {
 }
 
 impl SelfShadowSize {
+    /// With so many texels across, if a scene states any.
+    pub fn of(across: Option<u32>) -> Self {
+        across.map_or_else(Self::default, |across| Self { across, slices: across / 4 })
+    }
+
     /// Width, height and depth of the texture.
     pub fn extent(self) -> [u32; 3] {
         [self.across, self.across, self.slices]

@@ -6,7 +6,7 @@ use crate::scene::features::Features;
 use crate::shaders;
 use crate::vulkan::{
     Access, Binding, Buffer, ComputePipelineInfo, DescriptorLayout, DescriptorSet, Device, MemoryKind,
-    Pipeline, Resource, VulkanError, vk,
+    Pipeline, Resource, VulkanError, trimmed, vk,
 };
 use bytemuck::{Pod, Zeroable};
 use std::sync::Arc;
@@ -64,11 +64,14 @@ pub fn ask_device(
         stages: vk::ShaderStageFlags::COMPUTE,
     };
     let layout = DescriptorLayout::new(device, "queries", &[binding(0), binding(1)])?;
-    let [frame_layout, fabric_layout] = renderer.fibers_pass().layouts();
+    let missing = || VulkanError::misuse("a scene without a fabric");
+    let [frame_layout, fabric_layout] = renderer.fibers_pass().layouts(0).ok_or_else(missing)?;
+    let constants = specialization(features, vk::SampleCountFlags::TYPE_1, Manner::AtPixels);
+    let words = shaders::get(KERNEL).ok_or_else(|| VulkanError::misuse(format!("no shader `{KERNEL}`")))?;
     let info = ComputePipelineInfo {
         name: "fiber point",
-        spirv: shaders::get(KERNEL).ok_or_else(|| VulkanError::misuse(format!("no shader `{KERNEL}`")))?,
-        constants: &specialization(features, vk::SampleCountFlags::TYPE_1, Manner::AtPixels),
+        spirv: &trimmed(words, &constants)?,
+        constants: &constants,
         set_layouts: &[frame_layout, fabric_layout, &layout],
         push_constant_bytes: 0,
         cache: None,
@@ -76,7 +79,6 @@ pub fn ask_device(
     let pipeline = Pipeline::compute(device, &info)?;
     let bound = [(0, Resource::Storage(&asked)), (1, Resource::Storage(&answered))];
     let set = DescriptorSet::new(&layout, "queries", &bound)?;
-    let missing = || VulkanError::misuse("a scene without a fabric");
     let [frame_set, fabric_set] = renderer.fibers_pass().sets(0).ok_or_else(missing)?;
     device.run_once("fiber point", |commands| {
         commands.bind_pipeline(&pipeline);

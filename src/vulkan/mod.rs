@@ -23,6 +23,7 @@ mod select;
 mod shader;
 mod timestamps;
 mod transfer;
+mod trim;
 
 pub use ash::vk;
 
@@ -43,3 +44,4 @@ pub use sampler::{Sampler, SamplerInfo};
 pub use select::{DeviceChoice, OptionalFeatures};
 pub use shader::{ShaderStage, SpecializationConstants};
 pub use timestamps::Taken;
+pub use trim::trimmed;

@@ -51,6 +51,11 @@ impl SpecializationConstants {
         self
     }
 
+    /// The word of this id, if it is set.
+    pub(crate) fn word(&self, id: u32) -> Option<u32> {
+        self.entries.iter().find(|(other, _)| *other == id).map(|(_, bytes)| u32::from_ne_bytes(*bytes))
+    }
+
     fn map(&self) -> Vec<vk::SpecializationMapEntry> {
         let mut offset = 0;
         let mut map = Vec::with_capacity(self.entries.len());

@@ -46,7 +46,7 @@ fn the_same_command_writes_the_same_bytes_and_another_seed_others() {
 }
 
 /// Every key of the statistics, and whether its value must be above 0.
-const KEYS: [(&str, bool); 19] = [
+const KEYS: [(&str, bool); 21] = [
     ("device", false),
     ("driver", false),
     ("size", false),
@@ -64,6 +64,8 @@ const KEYS: [(&str, bool); 19] = [
     ("precompute_ms", false),
     ("gpu_bytes", false),
     ("left_out", false),
+    ("left_out_bytes", false),
+    ("left_out_of_frame", false),
     ("nan_pixels", false),
     ("clamped_pixels", false),
 ];
@@ -166,6 +168,7 @@ fn explain_says_what_was_left_out_and_why() {
     for line in [
         "left out: specular, because fiber.specular is 0, or shading.specular false",
         "left out: culling",
+        "left out: environment, because",
         "device: ",
         "built: ",
     ] {

@@ -13,34 +13,38 @@ use worsted::scene::shadow_light;
 use worsted::yarn::detail::CORE_LEVELS;
 use worsted::yarn::tube::{TUBE_CAP, TUBE_ROWS, TUBE_STEPS};
 
+/// Features that need everything there is.
+pub fn everything() -> Features {
+    Features {
+        basis: Basis::CatmullRom,
+        culling: true,
+        distance_occlusion: true,
+        statistics: true,
+        specular: true,
+        diffuse: true,
+        physical: true,
+        shadow_map: true,
+        soft_shadows: true,
+        self_shadow: true,
+        texture_occlusion: true,
+        yarn_occlusion: true,
+        ambient: true,
+        light_count: 1,
+        local_lights: true,
+        environment: true,
+        debug_view: DebugView::Shaded,
+        flyaways: true,
+        core_fibers: true,
+        core_fibers_drawn: true,
+        level_of_detail: true,
+        regular_fibers: true,
+        vertex_shading: true,
+    }
+}
+
 /// Identifier and name of each specialization constant as Rust has them: `DebugView` is `DEBUG_VIEW`.
 fn rust_specialization() -> Vec<(u32, String)> {
-    let features = Features {
-        basis: Basis::CatmullRom,
-        culling: false,
-        distance_occlusion: false,
-        statistics: false,
-        specular: false,
-        diffuse: false,
-        physical: false,
-        shadow_map: false,
-        soft_shadows: false,
-        self_shadow: false,
-        texture_occlusion: false,
-        yarn_occlusion: false,
-        ambient: false,
-        light_count: 0,
-        local_lights: false,
-        environment: false,
-        debug_view: DebugView::Shaded,
-        flyaways: false,
-        core_fibers: false,
-        core_fibers_drawn: false,
-        level_of_detail: false,
-        regular_fibers: false,
-        vertex_shading: false,
-    };
-    features.specialization(1, false).map(|(id, _)| (id as u32, screaming(&format!("{id:?}")))).to_vec()
+    everything().specialization(1, false).map(|(id, _)| (id as u32, screaming(&format!("{id:?}")))).to_vec()
 }
 
 fn screaming(camel: &str) -> String {

@@ -1,12 +1,13 @@
 //! Bindings and push constants: what shaders declare against what the passes make.
 
+use crate::constants::everything;
 use crate::device::shared;
 use crate::reflection::{self, Descriptor, Layout, Member, Reflected};
 use crate::structs::differences;
 use crate::text_of;
 use spirq::ty::DescriptorType;
 use worsted::gpu_types::{Frame, Light, ShadowView, Statistics};
-use worsted::passes::fibers::{FibersPass, FrameBuffers};
+use worsted::passes::fiber_sets::{FrameBuffers, fabric_layout, frame_set};
 use worsted::passes::shadow_map::ShadowMap;
 use worsted::vulkan::{Binding, Buffer, DeviceChoice, MemoryKind, vk};
 
@@ -46,10 +47,18 @@ fn fiber_sets() -> Vec<Vec<Binding>> {
     let lights = Buffer::upload(device, "lights", storage, &[Light::default()]).expect("a small buffer");
     let shadow_views =
         Buffer::upload(device, "shadow views", storage, &[ShadowView::default()]).expect("a small buffer");
-    let shadow_map = ShadowMap::new(device, 1, 0).expect("a small image").image;
-    let buffers = FrameBuffers { frame, statistics, lights, shadow_views, shadow_map };
-    let pass = FibersPass::new(device, buffers).expect("the pass");
-    pass.layouts().map(|layout| layout.bindings().to_vec()).to_vec()
+    let shadow_map = ShadowMap::new(device, 1, 1).expect("a small image").image;
+    let buffers = FrameBuffers {
+        frame,
+        statistics: Some(statistics),
+        lights: Some(lights),
+        shadow_views: Some(shadow_views),
+        shadow_map: Some(shadow_map),
+    };
+    let all = everything();
+    let (frame, _) = frame_set(device, &buffers, &[all]).expect("the set");
+    let fabric = fabric_layout(device, &all).expect("the layout");
+    [frame, fabric].map(|layout| layout.bindings().to_vec()).to_vec()
 }
 
 /// The shaders that read the sets of the fiber pass: those of single fibers, of cores and of ribbons.

@@ -144,7 +144,11 @@ pub fn layouts() -> Vec<Layout> {
             thin_fiber_px,
             index,
             shading_spacing_px,
-            vertex_shaded_px
+            vertex_shaded_px,
+            light_count,
+            padding_0,
+            padding_1,
+            padding_2
         }),
         layout!(Statistics { patches_drawn, patches_culled, fiber_segments_low, fiber_segments_high }),
     ]

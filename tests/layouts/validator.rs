@@ -1,8 +1,13 @@
 //! Every embedded shader through Khronos' validator.
 
+use crate::constants::everything;
 use std::io::Write;
 use std::process::{Command, Stdio};
+use worsted::passes::strand_pipeline::{Manner, specialization};
+use worsted::scene::features::Features;
+use worsted::scene::file::DebugView;
 use worsted::shaders;
+use worsted::vulkan::{trimmed, vk};
 
 /// What `spirv-val` says of a module; `Ok` if it is valid.
 fn validate(words: &[u32]) -> Result<(), String> {
@@ -26,6 +31,76 @@ fn every_embedded_shader_is_valid() {
     for (path, words) in shaders::all() {
         assert_eq!(validate(words), Ok(()), "{path}");
     }
+}
+
+/// Everything, nothing, and everything but one thing.
+fn variants() -> Vec<Features> {
+    let edits: [fn(&mut Features); 17] = [
+        |_| (),
+        |f| f.statistics = false,
+        |f| f.light_count = 0,
+        |f| f.shadow_map = false,
+        |f| f.soft_shadows = false,
+        |f| f.self_shadow = false,
+        |f| (f.texture_occlusion, f.distance_occlusion) = (false, false),
+        |f| f.yarn_occlusion = false,
+        |f| f.ambient = false,
+        |f| f.physical = false,
+        |f| (f.specular, f.physical) = (false, false),
+        |f| f.diffuse = false,
+        |f| f.flyaways = false,
+        |f| (f.core_fibers, f.level_of_detail) = (false, false),
+        |f| f.culling = false,
+        |f| f.debug_view = DebugView::Occlusion,
+        |f| {
+            *f = Features {
+                culling: false,
+                statistics: false,
+                light_count: 0,
+                shadow_map: false,
+                soft_shadows: false,
+                self_shadow: false,
+                texture_occlusion: false,
+                distance_occlusion: false,
+                yarn_occlusion: false,
+                ambient: false,
+                physical: false,
+                specular: false,
+                diffuse: false,
+                flyaways: false,
+                core_fibers: false,
+                level_of_detail: false,
+                ..*f
+            }
+        },
+    ];
+    edits
+        .map(|edit| {
+            let mut features = everything();
+            edit(&mut features);
+            features
+        })
+        .to_vec()
+}
+
+#[test]
+fn shaders_without_what_features_leave_out_are_valid_and_shorter() {
+    let passes = ["passes/fibers.", "passes/core.", "passes/shadow_map."];
+    let strands = || shaders::all().filter(|(path, _)| passes.iter().any(|pass| path.starts_with(pass)));
+    for (path, words) in strands() {
+        let manners = |features| [Manner::AtPixels, Manner::AtVertices].map(|manner| (features, manner));
+        for (features, manner) in variants().into_iter().flat_map(manners) {
+            let constants = specialization(&features, vk::SampleCountFlags::TYPE_1, manner);
+            let trimmed = trimmed(words, &constants).expect("SPIR-V");
+            assert_eq!(validate(&trimmed), Ok(()), "{path} for {features:?}, {manner:?}");
+            assert!(trimmed.len() <= words.len(), "{path}");
+        }
+    }
+    let (_, whole) = strands().find(|(path, _)| *path == "passes/fibers.frag").expect("embedded");
+    let least = variants().pop().expect("variants");
+    let constants = specialization(&least, vk::SampleCountFlags::TYPE_1, Manner::AtPixels);
+    let trimmed = trimmed(whole, &constants).expect("SPIR-V");
+    assert!(trimmed.len() * 3 < whole.len(), "{} of {} words are left", trimmed.len(), whole.len());
 }
 
 #[test]
