@@ -64,14 +64,13 @@ fn rotate(n: &mut [[f64; 4]; 4], vectors: &mut [[f64; 4]; 4], p: usize, q: usize
     let t = 1f64.copysign(theta) / (theta.abs() + theta.hypot(1.0));
     let c = t.hypot(1.0).recip();
     let s = t * c;
-    for k in 0..4 {
-        let (a, b) = (n[k][p], n[k][q]);
-        (n[k][p], n[k][q]) = (c * a - s * b, s * a + c * b);
+    for row in n.iter_mut() {
+        let (a, b) = (row[p], row[q]);
+        (row[p], row[q]) = (c * a - s * b, s * a + c * b);
     }
-    for k in 0..4 {
-        let (a, b) = (n[p][k], n[q][k]);
-        (n[p][k], n[q][k]) = (c * a - s * b, s * a + c * b);
-    }
+    let (above, below) = (n[p], n[q]);
+    n[p] = std::array::from_fn(|k| c * above[k] - s * below[k]);
+    n[q] = std::array::from_fn(|k| s * above[k] + c * below[k]);
     for row in vectors {
         let (a, b) = (row[p], row[q]);
         (row[p], row[q]) = (c * a - s * b, s * a + c * b);
