@@ -40,6 +40,7 @@ pub mod io;
 pub mod knit;
 pub mod math;
 pub mod metrics;
+pub mod motion;
 pub mod passes;
 pub mod precompute;
 pub mod probe;

@@ -10,6 +10,7 @@ pub mod frame;
 pub mod hash;
 pub mod quadrature;
 pub mod rng;
+pub mod rotation;
 pub mod special;
 pub mod spread;
 pub mod strip;

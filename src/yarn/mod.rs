@@ -13,6 +13,7 @@ pub mod migrated_density;
 pub mod migration;
 pub mod params;
 pub mod period;
+pub mod pose;
 pub mod presets;
 pub mod ranges;
 pub mod strand;

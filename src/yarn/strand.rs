@@ -63,12 +63,23 @@ impl Strands {
         knot_offsets(self.basis).map(|k| self.normals[piece.first_point + k])
     }
 
+    /// Which two of a piece's four points carry the normals of its knots.
+    pub fn knot_offsets(&self) -> [usize; 2] {
+        knot_offsets(self.basis)
+    }
+
     /// Unit tangent of the knot at each control point, as the piece behind it has it; +X at points that are no knot.
     pub fn knot_tangents(&self) -> Vec<DVec3> {
-        let mut tangents = vec![DVec3::X; self.points.len()];
+        self.knot_tangents_at(&self.points)
+    }
+
+    /// The same with the strands' points elsewhere: as many as there are.
+    pub fn knot_tangents_at(&self, points: &[DVec3]) -> Vec<DVec3> {
+        let mut tangents = vec![DVec3::X; points.len()];
         let [start, end] = knot_offsets(self.basis);
         for piece in &self.pieces {
-            let b = self.bezier(piece);
+            let window = std::array::from_fn(|k| points[piece.first_point + k]);
+            let b = bezier_from_basis(&window, self.basis);
             tangents[piece.first_point + end] = piece_tangent(&b, b[3] - b[2]);
             tangents[piece.first_point + start] = piece_tangent(&b, b[1] - b[0]);
         }

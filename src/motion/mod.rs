@@ -1,0 +1,4 @@
+//! Yarn that moves: where its control points are, and how they and their normals have turned since rest.
+
+pub mod local_rotation;
+pub mod pose;
