@@ -30,6 +30,10 @@ layout(location = 8) centroid out vec3 fragment_radiance;     // where it is sha
 const float COLUMNS[5] = float[5](-1.0, -0.70710678, 0.0, 0.70710678, 1.0);
 const float SMALL_PX = 8.0;
 
+// Where between the middle and itself a vertex is shaded: an edge stands for the strip beside it as well. Chosen so that
+// a distant core is as bright as when it is shaded at every pixel; at 1 it is 5 to 12% too bright, at 0.85 8 to 15% too dark.
+const float SHADED_INSET = 0.94;
+
 void emit(int end, float across, vec4 seen, vec4 rates) {
     float thickness = core_thickness(place[end].z, yarn);
     float v = across * thickness;
@@ -40,6 +44,7 @@ void emit(int end, float across, vec4 seen, vec4 rates) {
     vec4 clip = frame.clip_from_world * vec4(position, 1.0);
     vec3 shaded = vec3(0.0);
     if (AT_VERTICES) {
+        at.v *= SHADED_INSET;
         CoreTexel texel = core_texel(at, frame.pixel_tangent * max(clip.w, frame.near_mm));
         shaded = strand_color(core_strand(at, texel)).rgb;
     }

@@ -64,7 +64,7 @@ uint pieces_of(Segment segment, vec3 b[4], float pixel_mm) {
         fiber_reach *= max(1.0, max(hair, loop));
     }
     uint pieces = subdivisions(b, segment.ply_turns_delta, segment.fiber_turns_delta, yarn.ply_offset,
-                               fiber_reach, TOLERANCE * frame.tolerance_px * pixel_mm, PIECES_PER_TURN, yarn.max_subdivisions);
+                               fiber_reach, frame.tolerance_px * pixel_mm, PIECES_PER_TURN, yarn.max_subdivisions);
     return FLYAWAYS ? period_pieces(pieces, period_rate(segment, yarn), yarn.max_subdivisions) : pieces;
 }
 

@@ -23,11 +23,7 @@ Detail detail_at(float pixel_mm) {
 
 // Least pieces a turn of a fiber or ply, however small it is in the picture: straight pieces cut its way around
 // short, and what is drawn narrower than it is covers less.
-const float PIECES_PER_TURN = AT_VERTICES ? 4.0 : 6.0;
-
-// Factor of the departure of straight pieces that is allowed: of what is thin, nobody sees which way it goes within a
-// pixel.
-const float TOLERANCE = AT_VERTICES ? 2.0 : 1.0;
+const float PIECES_PER_TURN = 6.0;
 
 // A point of a fiber where straight pieces are as far from their axes as its arcs: turned by `ply` and `fiber` turns over
 // each piece.

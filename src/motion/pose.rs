@@ -89,7 +89,8 @@ fn moved_normal(carried: DVec3, tangent: DVec3, normal: DVec3) -> DVec3 {
 }
 
 /// Which of the strands' points are knots of a piece.
-fn knots(strands: &Strands) -> Vec<bool> {
+/// Which of the strands' points carry a normal.
+pub fn knots(strands: &Strands) -> Vec<bool> {
     let mut knots = vec![false; strands.points.len()];
     for piece in &strands.pieces {
         for offset in strands.knot_offsets() {
@@ -98,7 +99,3 @@ fn knots(strands: &Strands) -> Vec<bool> {
     }
     knots
 }
-
-#[cfg(test)]
-#[path = "pose_tests.rs"]
-mod tests;

@@ -186,7 +186,7 @@ fn mip_chain(base: CoreMip, layers: usize) -> Vec<CoreMip> {
 
 /// Texels of all mips and layers of a core texture of so many rows, for a yarn of so many plies.
 pub fn core_texels(rows: u32, plies: u32) -> u64 {
-    let layers = u64::from(plies * CORE_LEVELS + 1);
+    let layers = u64::from(plies * CORE_LEVELS);
     let [mut columns, mut rows] = [COLUMNS_PER_ROW * rows, rows].map(u64::from);
     let mut texels = columns * rows;
     while rows > u64::from(FEWEST_ROWS) {

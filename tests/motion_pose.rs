@@ -1,12 +1,19 @@
-use super::*;
-use crate::knit::params::KnitParams;
-use crate::knit::stockinette::stockinette;
-use crate::knit::tube::tube;
-use crate::math::curve::{Basis, Curve};
-use crate::math::rng::Rng;
-use crate::yarn::presets;
-use crate::yarn::strand::strands;
+//! Frames that follow moving yarn: `src/motion/pose.rs`.
+
+#![expect(clippy::unwrap_used, reason = "the helpers of a test may fail it")]
+
+use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
+use worsted::knit::params::KnitParams;
+use worsted::knit::stockinette::stockinette;
+use worsted::knit::tube::tube;
+use worsted::math::curve::{Basis, Curve};
+use worsted::math::rng::Rng;
+use worsted::motion::pose::{RestPose, knots};
+use worsted::yarn::pose::PointMap;
+use worsted::yarn::presets;
+use worsted::yarn::strand::Strands;
+use worsted::yarn::strand::strands;
 
 fn fabrics() -> Vec<Strands> {
     let small = KnitParams { courses: 4, wales: 4, ..KnitParams::swatch() };
