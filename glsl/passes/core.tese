@@ -31,8 +31,8 @@ void main() {
     vec3 axis = core_axis(center.ply_normal, center.ply_binormal, turns_per_mm, yarn.ply_offset);
     CoreSection seen = core_section(center.ply_normal, center.ply_binormal, axis, to_eye, yarn.ellipse_short,
                                     yarn.ellipse_long);
-    position_world = set_out(center, segment.ply_turns_delta / float(patch_pieces), 0.0);
-    gl_Position = frame.clip_from_world * vec4(position_world, 1.0);
+    position_world = center.position;
+    gl_Position = frame.clip_from_world * vec4(center.position, 1.0);
     tangent_world = center.tangent;
     side_world = seen.side;
     toward_world = seen.toward;

@@ -75,9 +75,7 @@ void main() {
         f = fetch_fiber_at(patch_segment, fiber_index, t, period);
         joining = ivec4(0, 0, shown(patch_segment, f, period.kind, t), int(place));
     }
-    Segment segment = segments[patch_segment];
-    float ply_turns = segment.ply_turns_delta / float(patch_pieces);
-    position_world = set_out(f, ply_turns, ply_turns + segment.fiber_turns_delta / float(patch_pieces));
+    position_world = f.position;
     tangent_world = vec4(f.tangent, CORE_FIBERS ? f.width * drawn_width(slot, f.position, flies) : f.width);
     ply_normal = f.ply_normal;
     ply_binormal = f.ply_binormal;

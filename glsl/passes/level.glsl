@@ -3,7 +3,6 @@
 #define WORSTED_PASS_LEVEL
 
 #include "../yarn/detail.glsl"
-#include "../yarn/fiber.glsl"
 #include "../yarn/level.glsl"
 
 // A point's depth along the view axis is depth_axis().xyz . p + depth_axis().w.
@@ -24,13 +23,6 @@ Detail detail_at(float pixel_mm) {
 // Least pieces a turn of a fiber or ply, however small it is in the picture: straight pieces cut its way around
 // short, and what is drawn narrower than it is covers less.
 const float PIECES_PER_TURN = 6.0;
-
-// A point of a fiber where straight pieces are as far from their axes as its arcs: turned by `ply` and `fiber` turns over
-// each piece.
-vec3 set_out(FiberPoint f, float ply, float fiber) {
-    return f.yarn_center + chord_outset(TWO_PI * ply) * (f.ply_center - f.yarn_center)
-         + chord_outset(TWO_PI * fiber) * (f.position - f.ply_center);
-}
 
 // Share of its width with which the fiber in a slot is drawn, whatever its rank.
 float slot_weight(uint slot, Detail detail) {

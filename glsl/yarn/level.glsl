@@ -30,21 +30,6 @@ uint subdivisions(vec3 b[4], float ply_turns, float fiber_turns, float ply_offse
     return uint(clamp(ceil(pieces), 1.0, float(largest)));
 }
 
-const float CHORD_FOURTH = 0.067;
-
-// Factor of the distance from its axis at which the ends of a straight piece lie that stands for an arc of `angle`
-// radians: on the arc itself the piece would be nearer on average, and what is drawn narrower covers less. Pieces of
-// more than a quarter turn get no more than one of them.
-float chord_outset(float angle) {
-    float half_angle = min(0.5 * abs(angle), 0.25 * PI);
-    float squared = half_angle * half_angle;
-    if (half_angle < 0.1) {
-        return 1.0 + squared * (1.0 / 3.0 + squared * CHORD_FOURTH);
-    }
-    float t = tan(half_angle);
-    return 2.0 / (1.0 + cos(half_angle) * log(t + sqrt(1.0 + t * t)) / t);
-}
-
 // At least `pieces`, and enough that no two vertices are more than a quarter of a period apart: a step
 // must not pass over a whole period.
 uint period_pieces(uint pieces, float periods, uint largest) {

@@ -88,7 +88,6 @@ fn moved_normal(carried: DVec3, tangent: DVec3, normal: DVec3) -> DVec3 {
     normal_perpendicular_to(tangent, direction_or(turned_normal(carried, tangent, normal), normal))
 }
 
-/// Which of the strands' points are knots of a piece.
 /// Which of the strands' points carry a normal.
 pub fn knots(strands: &Strands) -> Vec<bool> {
     let mut knots = vec![false; strands.points.len()];

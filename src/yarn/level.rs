@@ -3,7 +3,7 @@
 use crate::math::angle::angle_of;
 use crate::math::frame::direction_or;
 use glam::{DVec3, DVec4};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// Angle in [0, pi] between two vectors; 0 where one has no direction.
 pub fn turning_angle(a: DVec3, b: DVec3) -> f64 {
@@ -49,21 +49,6 @@ pub fn subdivisions(b: &[DVec3; 4], cutting: &Cutting) -> u32 {
     pieces.ceil().clamp(1.0, f64::from(cutting.largest)) as u32
 }
 
-/// Fourth-order term of [`chord_outset`] by half the angle; `CHORD_FOURTH` in `glsl/yarn/level.glsl`.
-const CHORD_FOURTH: f64 = 0.067;
-
-/// Factor of the distance from its axis at which the ends of a straight piece lie that stands for an arc of `angle`
-/// radians: on the arc itself the piece would be nearer on average, and what is drawn narrower covers less. Pieces of
-/// more than a quarter turn get no more than one of them.
-pub fn chord_outset(angle: f64) -> f64 {
-    let half = (0.5 * angle.abs()).min(0.25 * PI);
-    let squared = half * half;
-    if half < 0.1 {
-        return 1.0 + squared * (1.0 / 3.0 + squared * CHORD_FOURTH);
-    }
-    2.0 / (1.0 + half.cos() * half.tan().asinh() / half.tan())
-}
-
 /// At least `pieces`, and enough that no two vertices are more than a quarter of a period apart: a step
 /// must not pass over a whole period. `pieces` is at most `largest`.
 pub fn period_pieces(pieces: u32, periods: f64, largest: u32) -> u32 {
@@ -95,22 +80,6 @@ mod tests {
         per_turn: 6.0,
         largest: 64,
     };
-
-    #[test]
-    fn a_piece_set_out_is_as_far_from_the_axis_as_its_arc() {
-        for angle in [1e-3, 0.05, 0.19999, 0.20001, 0.5, 1.0, 0.5 * PI] {
-            let outset = chord_outset(angle);
-            let steps = 20_000;
-            let radius = |step| {
-                let along = (f64::from(step) + 0.5) / f64::from(steps) * 2.0 - 1.0;
-                outset * (0.5 * angle).cos().hypot(along * (0.5 * angle).sin())
-            };
-            let mean = (0..steps).map(radius).sum::<f64>() / f64::from(steps);
-            assert!((mean - 1.0).abs() < 2e-6, "{angle}: {mean}");
-        }
-        assert_eq!(chord_outset(3.0), chord_outset(0.5 * PI));
-        assert_eq!(chord_outset(-0.3), chord_outset(0.3));
-    }
 
     #[test]
     fn subdivisions_grow_with_twist_and_bend_and_are_bounded() {

@@ -14,7 +14,7 @@ const FACTOR_FLOOR: f64 = 1e-3;
 
 pub fn cases() -> Vec<Case> {
     let mut all = vec![migration_radius(), turning_angle(), subdivisions(), outside_frustum()];
-    all.extend([chord_outset(), period_pieces(), nearest_depth(), one_minus_exp(), fiber_density()]);
+    all.extend([period_pieces(), nearest_depth(), one_minus_exp(), fiber_density()]);
     all.extend([piece_tangent(), turned_normal(), twist_at(), yarn_point()]);
     all
 }
@@ -179,19 +179,6 @@ fn subdivisions() -> Case {
             };
             vec![number("pieces", level::subdivisions(&b, &c).into(), 1.0)]
         },
-        invariant: None,
-    }
-}
-
-fn chord_outset() -> Case {
-    let mut rows = random_rows("chord_outset", |random| row().real(random.between(-2.0, 2.0)).end());
-    for angle in [0.0, 1e-30, 1e-4, 0.199_99, 0.200_01, 1.57, 1.571, 1e6, -1e6] {
-        rows.push(row().real(angle).end());
-    }
-    Case {
-        function: "chord_outset",
-        rows,
-        twin: |args| vec![number("outset", level::chord_outset(args.real()), 1.0)],
         invariant: None,
     }
 }
