@@ -143,8 +143,6 @@ pub struct Yarn {
     pub core_above: f32,
     /// Farthest fiber of each of the core's levels (`CORE_LEVELS` in `glsl/shared/constants.glsl`), as a share of the ellipse.
     pub core_thickness: [f32; 8],
-    /// Distance from the ply's centre within which each level hides what lies behind, likewise.
-    pub core_opaque: [f32; 8],
     /// Between the fibers of successive slots: [`crate::yarn::detail::fiber_of_slot`].
     pub slot_stride: u32,
     /// Distance from the yarn's centre that nothing exceeds.

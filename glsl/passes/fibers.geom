@@ -4,8 +4,6 @@
 #include "bindings.glsl"
 #include "../lib/strip.glsl"
 #include "../yarn/breaks.glsl"
-#include "../yarn/core.glsl"
-#include "level.glsl"
 
 layout(lines) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -31,14 +29,6 @@ layout(location = 6) centroid out vec3 fragment_normal;       // of the ply, and
 layout(location = 7) centroid out vec3 fragment_binormal;
 layout(location = 8) centroid out vec3 fragment_radiance;     // where it is shaded at its vertices
 
-// Whether the core of its own ply hides this end.
-bool hidden(int end, vec3 to_eye) {
-    vec2 from_ply = section_place[end].xy - vec2(yarn.ply_offset, 0.0);
-    vec2 toward = vec2(dot(to_eye, ply_normal[end]), dot(to_eye, ply_binormal[end]));
-    float margin = tangent_world[end].w * yarn.fiber_radius / yarn.ellipse_short;
-    return core_hides(from_ply, toward, detail_at(pixel_mm_at(position_world[end])).level, margin, yarn);
-}
-
 void main() {
     // Which end of the line comes first along the yarn is the driver's choice.
     int first = joining[0].w < joining[1].w ? 0 : 1;
@@ -48,15 +38,8 @@ void main() {
     if (CORE_FIBERS && max(tangent_world[0].w, tangent_world[1].w) <= 0.0) {
         return;
     }
-    vec3 to_eyes[2];
     for (int end = 0; end < 2; ++end) {
-        to_eyes[end] = direction_or(frame.eye_world.xyz - position_world[end], vec3(0.0, 0.0, 1.0));
-    }
-    if (LEVEL_OF_DETAIL && hidden(0, to_eyes[0]) && hidden(1, to_eyes[1])) {
-        return;
-    }
-    for (int end = 0; end < 2; ++end) {
-        vec3 to_eye = to_eyes[end];
+        vec3 to_eye = direction_or(frame.eye_world.xyz - position_world[end], vec3(0.0, 0.0, 1.0));
         vec3 side = strip_side(tangent_world[end].xyz, to_eye);
         for (int edge = -1; edge <= 1; edge += 2) {
             vec3 corner = position_world[end] + float(edge) * tangent_world[end].w * yarn.fiber_radius * side;

@@ -72,7 +72,6 @@ struct Yarn {
     uint core_rows;         // texels across the core's texture
     float core_above;       // of the two heights that stand for all: the upper one above their mean, per deviation
     float core_thickness[CORE_LEVELS]; // farthest fiber of each level, as share of the ellipse
-    float core_opaque[CORE_LEVELS]; // distance from the ply's centre within which each level hides all, likewise
     uint slot_stride;       // between the fibers of successive slots: glsl/yarn/detail.glsl
     float reach;            // of anything, hairs included, from the yarn's centre
     float k_tt;             // gamma_TT^-2

@@ -63,16 +63,4 @@ float core_thickness(float level, Yarn yarn) {
     return mix(yarn.core_thickness[low], yarn.core_thickness[low + 1u], place - float(low));
 }
 
-// Whether a core hides what lies at `from_ply` of the ply's centre (along the ellipse's short and long axis, mm) from
-// a viewer in the direction `to_eye` (along them, of any length). `margin` is the thing's half-width as a share of the
-// ellipse.
-bool core_hides(vec2 from_ply, vec2 to_eye, float level, float margin, Yarn yarn) {
-    // The ellipse as a circle: lines of sight stay lines.
-    vec2 axes = vec2(yarn.ellipse_short, yarn.ellipse_long);
-    vec2 place = from_ply / axes;
-    vec2 toward = direction_or(vec3(to_eye / axes, 0.0), vec3(0.0)).xy;
-    float opaque = yarn.core_opaque[min(uint(max(level, 0.0)), CORE_LEVELS - 1u)];
-    return dot(place, toward) < 0.0 && abs(place.x * toward.y - place.y * toward.x) < opaque - margin;
-}
-
 #endif

@@ -12,7 +12,6 @@ use crate::precompute::sky::{SkyYarns, bake_skies};
 use crate::scene::features::Features;
 use crate::scene::{Fabric, Scene};
 use crate::yarn::density::extinction_per_mm;
-use crate::yarn::detail::CORE_LEVELS;
 use crate::yarn::table::Fiber;
 use half::f16;
 use std::cell::LazyCell;
@@ -32,8 +31,6 @@ pub struct Bakes {
     pub occlusion_texture: Option<OcclusionTable>,
     /// Radius of the opaque tube that takes as much light from other yarns; the outer radius where nothing reads it.
     pub shadow_radius_mm: f64,
-    /// How far from a ply's centre each level of its core hides what lies behind; 0 where no core is drawn.
-    pub core_opaque: [f64; CORE_LEVELS as usize],
     /// Extinction per outer radius of the yarn.
     pub extinction: f64,
 }
@@ -70,10 +67,6 @@ impl Bakes {
             self_shadow: features.self_shadow.then(|| timed(stats, "self_shadow", depth)),
             shadow_radius_mm: if hides { shadow() } else { yarn.outer_radius_mm() },
             extinction: extinction_per_mm * yarn.outer_radius_mm(),
-            core_opaque: core
-                .as_ref()
-                .filter(|_| features.core_fibers_drawn)
-                .map_or([0.0; _], |core| core.opaque),
             core,
             scattering: features.physical.then(|| timed(stats, "scattering_table", scattering)),
         }

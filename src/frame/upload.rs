@@ -128,7 +128,6 @@ pub fn yarn(fabric: &Fabric, quality: &QualityTable, bakes: &Bakes, first_piece:
         core_rows: core.map_or(1, |core| core.mips[0].rows),
         core_above: core.map_or(1.0, |core| core.height_above) as f32,
         core_thickness: core.map_or([0.0; 8], |core| core.thickness.map(|t| t as f32)),
-        core_opaque: bakes.core_opaque.map(|v| v as f32),
         slot_stride: slot_stride(params.fiber_count()),
         reach: flyaways.reach_mm as f32,
         occlusion: occlusion.visibility.as_vec4().to_array(),

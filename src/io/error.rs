@@ -56,8 +56,12 @@ impl std::error::Error for FileError {}
 
 /// A path in a line of text: names may hold line breaks and other control characters.
 pub fn shown(path: &Path) -> String {
-    let plain = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
-    path.to_string_lossy().chars().map(plain).collect()
+    plain(&path.to_string_lossy())
+}
+
+/// A text as one line without control characters, which parts of broken files that an error repeats may hold.
+pub fn plain(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use exr::prelude::{
 };
 
 use crate::io::error::{FileError, Place};
-use crate::io::picture::{LinearImage, check_exr_header, read_exr, read_whole, refused};
+use crate::io::picture::{LinearImage, check_exr_header, guarded, read_exr, read_whole, refused};
 use crate::io::whole::write_whole;
 
 /// Names of the variance's channels.
@@ -81,15 +81,15 @@ fn read_variance(path: &Path, mean: &LinearImage) -> Result<Option<Vec<[f32; 3]>
     let wrong = |message: String| FileError::new(path, Place::File, message);
     let bytes = read_whole(path)?;
     check_exr_header(path, &bytes)?;
-    let image = read()
+    let decode = read()
         .no_deep_data()
         .largest_resolution_level()
         .all_channels()
         .first_valid_layer()
         .all_attributes()
-        .non_parallel()
-        .from_buffered(Cursor::new(&bytes))
-        .map_err(|e| refused(path, "read", &e))?;
+        .non_parallel();
+    let image =
+        guarded(path, || decode.from_buffered(Cursor::new(&bytes)).map_err(|e| refused(path, "read", &e)))?;
     let layer = &image.layer_data;
     let find = |name: &str| layer.channel_data.list.iter().find(|channel| channel.name.eq(name));
     let found = VARIANCE.map(find);

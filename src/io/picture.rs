@@ -8,7 +8,7 @@ use exr::meta::BlockDescription;
 use glam::DVec3;
 use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Limits};
 
-use crate::io::error::{FileError, Place};
+use crate::io::error::{FileError, Place, plain};
 use crate::io::whole::write_whole;
 use crate::math::color::{linear_from_srgb, srgb_from_linear};
 use crate::math::tone::Display;
@@ -235,8 +235,7 @@ const LONGEST_COMPLAINT: usize = 300;
 pub(super) fn refused(path: &Path, doing: &str, error: &dyn std::fmt::Display) -> FileError {
     let words = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
     let shown = words.chars().take(LONGEST_COMPLAINT);
-    let message: String =
-        shown.map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect();
+    let message = plain(&shown.collect::<String>());
     FileError::new(path, Place::File, format!("cannot {doing} the picture: {message}"))
 }
 
@@ -252,6 +251,13 @@ pub(super) fn read_whole(path: &Path) -> Result<Vec<u8>, FileError> {
     Ok(bytes)
 }
 
+/// What a decoder of others makes of a file. The OpenEXR one asserts what a spoiled file can break: levels of tiles that
+/// the file says it does not have.
+pub(super) fn guarded<T>(path: &Path, decode: impl FnOnce() -> Result<T, FileError>) -> Result<T, FileError> {
+    let decoded = std::panic::catch_unwind(std::panic::AssertUnwindSafe(decode));
+    decoded.unwrap_or_else(|_| Err(refused(path, "read", &"its parts contradict one another")))
+}
+
 fn decode(path: &Path, bytes: &[u8], format: ImageFormat) -> Result<DynamicImage, FileError> {
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     let mut limits = Limits::no_limits();
@@ -259,7 +265,7 @@ fn decode(path: &Path, bytes: &[u8], format: ImageFormat) -> Result<DynamicImage
     limits.max_image_height = Some(MAX_SIDE);
     limits.max_alloc = Some(MAX_FILE_BYTES);
     reader.limits(limits);
-    reader.decode().map_err(|e| refused(path, "read", &e))
+    guarded(path, || reader.decode().map_err(|e| refused(path, "read", &e)))
 }
 
 /// Bytes of pixels for each of a file: deflate makes at most 1032 of one, and this is twice that, for room.

@@ -63,9 +63,6 @@ pub struct CoreMip {
     pub texels: Vec<Moments>,
 }
 
-/// Share of a row of a level that may be bare where it is taken to hide what lies behind.
-const SEEN_THROUGH: f64 = 0.01;
-
 /// Rows of the coarsest level of the core's texture.
 const FEWEST_ROWS: u32 = 8;
 
@@ -81,8 +78,6 @@ pub struct CoreTexture {
     pub extent: f64,
     /// Of each level: the farthest fiber's outer edge, likewise; 0 where the core stands for none.
     pub thickness: [f64; CORE_LEVELS as usize],
-    /// Of each level: distance from the ply's centre within which it covers all but [`SEEN_THROUGH`], likewise.
-    pub opaque: [f64; CORE_LEVELS as usize],
     /// Fibers of each ply that are drawn one by one at full detail.
     pub ranks: u32,
     /// Mean height of the whole ply's surface over that of a circle as thick.
@@ -117,31 +112,16 @@ pub fn bake_core(yarn: &YarnParams, fibers: &[Fiber], rows: u32, visible_share: 
         let inner = plies.iter().map(|fibers| most(&fibers[first.min(fibers.len())..])).fold(0.0, f64::max);
         if inner > 0.0 { inner + grid.fiber_radius } else { 0.0 }
     });
-    let opaque = std::array::from_fn(|level| {
-        let of_plies = layers.iter().skip(level).step_by(CORE_LEVELS as usize);
-        of_plies.map(|layer| opaque_extent(layer, grid.columns, grid.extent)).fold(f64::INFINITY, f64::min)
-    });
     let base = CoreMip { columns: grid.columns as u32, rows, texels: layers.concat() };
     CoreTexture {
         layers: layers.len() as u32,
         mips: mip_chain(base, layers.len()),
         extent: grid.extent,
         thickness,
-        opaque,
         ranks,
         height_share,
         height_above,
     }
-}
-
-/// Distance from the middle row within which the rows of a layer are covered, but for [`SEEN_THROUGH`] of each.
-fn opaque_extent(layer: &[Moments], columns: usize, extent: f64) -> f64 {
-    let covered = |row: &[Moments]| row.iter().map(|texel| texel.shape[0]).sum::<f64>() / columns as f64;
-    let rows: Vec<f64> = layer.chunks_exact(columns).map(covered).collect();
-    let middle = rows.len() / 2;
-    let opaque = |pair: &(&f64, &f64)| pair.0.min(*pair.1) >= 1.0 - SEEN_THROUGH;
-    let around = rows[..middle].iter().rev().zip(&rows[middle..]).take_while(opaque).count();
-    extent * around as f64 / middle.max(1) as f64
 }
 
 /// Fewest ranks, from the outermost, such that the others make up at most `visible_share`.

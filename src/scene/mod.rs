@@ -16,7 +16,7 @@ pub mod shadow_light;
 pub mod tables;
 pub mod yarn_table;
 
-use crate::io::error::FileError;
+use crate::io::error::{FileError, plain};
 use crate::io::picture::LinearImage;
 use crate::knit::error::KnitError;
 use camera::Camera;
@@ -35,7 +35,7 @@ pub enum SceneError {
     #[error(transparent)]
     Knit(#[from] KnitError),
     /// Anything else the scene file says that cannot be.
-    #[error("{scene}: {message}")]
+    #[error("{scene}: {}", plain(message))]
     Value {
         /// The scene or yarn file.
         scene: String,

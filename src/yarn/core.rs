@@ -79,22 +79,6 @@ pub fn core_thickness(level: f64, thickness: &[f64; CORE_LEVELS as usize]) -> f6
     (1.0 - t) * thickness[low] + t * thickness[low + 1]
 }
 
-/// Whether a core hides what lies at `from_ply` of the ply's centre (along the ellipse's short and long axis, mm) from a
-/// viewer in the direction `to_eye` (along them, of any length), at a place in its levels. `ellipse_mm` has the
-/// half-axes, `margin` is the thing's half-width as a share of the ellipse, and `opaque` has for each level how far from
-/// the centre it hides all, likewise.
-pub fn core_hides(
-    [from_ply, to_eye]: [DVec2; 2],
-    level: f64,
-    margin: f64,
-    (ellipse_mm, opaque): (DVec2, &[f64; CORE_LEVELS as usize]),
-) -> bool {
-    let place = from_ply / ellipse_mm;
-    let toward = (to_eye / ellipse_mm).normalize_or_zero();
-    let opaque = opaque[(level.max(0.0) as usize).min(CORE_LEVELS as usize - 1)];
-    place.dot(toward) < 0.0 && place.perp_dot(toward).abs() < opaque - margin
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -137,18 +121,5 @@ mod tests {
         assert!((core_thickness(1.5, &thickness) - 0.3).abs() < 1e-12);
         assert_eq!(core_thickness(7.0, &thickness), 1.0);
         assert_eq!(core_thickness(9.0, &thickness), 1.0);
-    }
-
-    #[test]
-    fn a_core_hides_what_lies_behind_its_opaque_middle() {
-        let ellipse = DVec2::new(0.2, 0.4);
-        let opaque = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7];
-        let hidden = |x, y, level| {
-            core_hides([DVec2::new(x, y), DVec2::new(3.0, 0.0)], level, 0.05, (ellipse, &opaque))
-        };
-        assert!(hidden(-0.1, 0.2, 6.0) && hidden(-0.1, -0.2, 6.9) && hidden(-1.0, 0.0, 1e9));
-        assert!(!hidden(0.1, 0.2, 6.0), "before it");
-        assert!(!hidden(-0.1, 0.24, 6.0) && !hidden(-0.1, 0.2, 5.9), "beside its middle");
-        assert!(!core_hides([-DVec2::X, DVec2::ZERO], 7.0, 0.0, (ellipse, &opaque)), "seen along the ply");
     }
 }

@@ -12,7 +12,7 @@ use worsted::yarn::detail::CORE_LEVELS;
 const FLOOR: f64 = 1e-3;
 
 pub fn cases() -> Vec<Case> {
-    vec![core_section(), core_axis(), core_turns(), nearest_turn(), core_thickness(), core_hides()]
+    vec![core_section(), core_axis(), core_turns(), nearest_turn(), core_thickness()]
 }
 
 /// A ply along `tangent`: its ellipse's axes lie in the yarn's cross-section, to which the ply itself is up
@@ -129,41 +129,6 @@ fn nearest_turn() -> Case {
             let off = (f64::from(found[0]) - expected).abs();
             (off <= 0.5).then_some(()).ok_or_else(|| format!("{off} turns from what is expected"))
         }),
-    }
-}
-
-fn core_hides() -> Case {
-    let mut rows = random_rows("core_hides", |random| {
-        let size = random.magnitude(1e-4, 1e3);
-        let mut built = row();
-        // Place, view, level, margin, half-axes, and the levels' extents in quarters: never on the edge itself.
-        for _ in 0..2 {
-            built = built.real(size * random.between(-1.0, 1.0));
-        }
-        built = built.real(random.between(-1.0, 1.0)).real(random.between(-1.0, 1.0));
-        built = built.real(random.between(-0.5, 8.5)).real(random.between(0.0, 0.2));
-        built = built.real(size * random.between(0.1, 1.0)).real(size * random.between(0.1, 1.0));
-        (0..CORE_LEVELS).fold(built, |built, level| built.real(0.12 * f64::from(level))).end()
-    });
-    // Along the ply nothing is hidden; nor in the plane of the centre.
-    for (to_eye, x) in [([0.0, 0.0], -1.0), ([1.0, 0.0], 0.0), ([1.0, 0.0], -1.0), ([1.0, 0.0], 1.0)] {
-        let built =
-            row().real(x).real(0.1).real(to_eye[0]).real(to_eye[1]).real(7.0).real(0.0).real(1.0).real(1.0);
-        rows.push((0..CORE_LEVELS).fold(built, |built, level| built.real(0.12 * f64::from(level))).end());
-    }
-    Case {
-        function: "core_hides",
-        rows,
-        twin: |args| {
-            let [from_ply, to_eye] =
-                [DVec2::new(args.real(), args.real()), DVec2::new(args.real(), args.real())];
-            let (level, margin) = (args.real(), args.real());
-            let ellipse = DVec2::new(args.real(), args.real());
-            let opaque = std::array::from_fn(|_| args.real());
-            let hides = core::core_hides([from_ply, to_eye], level, margin, (ellipse, &opaque));
-            vec![number("hides", f64::from(u8::from(hides)), 1.0)]
-        },
-        invariant: None,
     }
 }
 

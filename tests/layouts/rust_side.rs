@@ -102,7 +102,6 @@ pub fn layouts() -> Vec<Layout> {
             core_rows,
             core_above,
             core_thickness,
-            core_opaque,
             slot_stride,
             reach,
             k_tt,
