@@ -243,7 +243,7 @@ pub struct Frame {
     pub index: u32,
     /// Between the places of a pixel at which one thing is shaded.
     pub shading_spacing_px: f32,
-    /// Width of a ply below which it is shaded at its vertices.
+    /// Width of a ply below which its fibers are shaded at their vertices.
     pub vertex_shaded_px: f32,
     /// Lights of which anything may arrive in this picture.
     pub light_count: u32,

@@ -1,8 +1,10 @@
 #version 460
-// Shades a core fiber, or shows what its vertices were shaded with.
+// Shades a core fiber as the fibers it stands for, by its texture.
 #extension GL_GOOGLE_include_directive : require
 #include "covered.glsl"
-#include "core_strand.glsl"
+#include "surface.glsl"
+#include "../lib/coverage.glsl"
+#include "../lib/frame.glsl"
 
 layout(location = 0) centroid in vec3 fragment_position;
 layout(location = 1) centroid in vec3 fragment_tangent;
@@ -12,18 +14,92 @@ layout(location = 4) centroid in vec4 fragment_rates;    // of the first three a
 layout(location = 5) centroid in vec3 fragment_place;    // from_yarn along side and toward, level
 layout(location = 6) flat in uvec3 fragment_core;        // ply, what a debug view shows, piece of yarn
 layout(location = 7) noperspective in float fragment_across; // as a share of the ellipse
-layout(location = 8) centroid in vec3 fragment_radiance; // where it is shaded at its vertices
 
 layout(location = 0) out vec4 radiance;
 
+// Level and mip are each one of the two nearest, by chance in proportion: on average that is what blending
+// them gives, for a quarter of the texture reads.
+Surface read_core(vec2 uv, float lod, uvec2 words) {
+    float level = clamp(floor(fragment_place.z + uniform_from_word(words.x)), 0.0, float(CORE_LEVELS - 1u));
+    float mip = max(floor(lod + uniform_from_word(words.y)), 0.0);
+    vec3 place = vec3(uv, float(fragment_core.x * CORE_LEVELS) + level);
+    vec4 spread = SPECULAR || DISTANCE_OCCLUSION || TEXTURE_OCCLUSION || SELF_SHADOW ? textureLod(core_spread, place, mip) : vec4(0.0);
+    return surface_of(textureLod(core_normals, place, mip), textureLod(core_shape, place, mip), spread);
+}
+
+// Texels of the finer direction that a pixel spans.
+float texels_of(float pixel_mm) {
+    float across = pixel_mm * float(yarn.core_rows) / (2.0 * yarn.core_extent * fragment_section.x);
+    float along = pixel_mm * abs(fragment_rates.w) / TWO_PI * float(textureSize(core_shape, 0).x);
+    return max(across, along);
+}
+
+// Random words of one cell of the texture, as large as a pixel: stable where the cloth moves.
+uvec4 cell_words(vec2 uv, float texels) {
+    float cell = exp2(ceil(log2(max(texels, 1.0))));
+    ivec2 place = ivec2(floor(uv * vec2(textureSize(core_shape, 0).xy) / cell));
+    return hash_words(uvec4(uvec2(place), fragment_core.z * 8u + fragment_core.x, frame.index));
+}
+
+// Place in the yarn's cross-section, along side and toward and as a share of outer_radius, of what lies at `v`
+// across and `height` above; `from_yarn` is the unit direction of the ply's centre there.
+vec2 yarn_place(float v, float height, vec2 from_yarn) {
+    vec2 offset = vec2(fragment_section.x * v, fragment_section.y * height + fragment_section.z * v);
+    return (offset + yarn.ply_offset * from_yarn) / yarn.outer_radius;
+}
+
 void main() {
-    CorePlace at = CorePlace(fragment_position, fragment_tangent, fragment_side, fragment_section, fragment_rates,
-                             fragment_place, fragment_core, covered_values(fragment_across, gl_SampleMaskIn[0]).x);
-    CoreTexel texel = core_texel(at, frame.pixel_tangent / gl_FragCoord.w);
-    uint mask = coverage_mask(core_coverage(texel), SAMPLES, texel.word);
+    float pixel_mm = frame.pixel_tangent / gl_FragCoord.w;
+    float texels = texels_of(pixel_mm);
+    float v = covered_values(fragment_across, gl_SampleMaskIn[0]).x;
+    vec2 uv = vec2(fract(fragment_section.w), 0.5 + 0.5 * v / yarn.core_extent);
+    uvec4 words = cell_words(uv, texels);
+    Surface surface = read_core(uv, log2(max(texels * frame.shading_spacing_px, 1e-3)), words.yz);
+    uint mask = coverage_mask(sharpened_coverage(surface.coverage, texels), SAMPLES, words.x);
     if (mask == 0u) {
         discard;
     }
     gl_SampleMask[0] = int(mask);
-    radiance = AT_VERTICES ? vec4(fragment_radiance, 1.0) : strand_color(core_strand(at, texel));
+
+    // Height of the ply's round here, as a share of the section's depth.
+    float round = sqrt(max(0.0, yarn.core_extent * yarn.core_extent - v * v));
+    float height = round * surface.height;
+    float rough = round * surface.rough;
+    // Fibers turn about the ply, and migrate.
+    surface.slope += vec2(-height, v);
+    surface.spread.x += rough * rough;
+    // From the texture's turn to the ply in space.
+    vec4 rates = fragment_rates;
+    vec2 slope = rates.w * vec2(fragment_section.x * surface.slope.x,
+                                fragment_section.y * surface.slope.y + fragment_section.z * surface.slope.x);
+    slope += vec2(rates.x * v, rates.y * height + rates.z * v);
+    vec2 scale = rates.w * fragment_section.xy;
+    float shrink = 1.0 / (1.0 + dot(slope, slope));
+
+    vec3 axis = direction_or(fragment_tangent, vec3(1.0, 0.0, 0.0));
+    vec3 side = normal_perpendicular_to(axis, fragment_side);
+    vec3 toward = cross(axis, side);
+    Strand strand;
+    strand.position = fragment_position;
+    strand.tangent = direction_or(axis + slope.x * side + slope.y * toward, axis);
+    strand.toward = normal_perpendicular_to(strand.tangent, toward);
+    strand.side = cross(strand.toward, strand.tangent);
+    strand.spread = shrink * vec3(scale.x * scale.x, scale.y * scale.y, scale.x * scale.y) * surface.spread;
+    strand.normals = surface.normals;
+    // Two heights with the mean, deviation and skewness of all; none lies above the ply's round.
+    float above = clamp(round - height, 0.25 * rough, yarn.core_above * rough);
+    float below = above > 0.0 ? rough * rough / above : 0.0;
+    // The ply's own frame, in the plane of side and toward. Straight pieces cut its way around the yarn short; its
+    // distance from the yarn's centre stays true.
+    vec2 normal = direction_or(vec3(fragment_place.xy, 0.0), vec3(0.0, 1.0, 0.0)).xy;
+    mat2 ply_from_view = mat2(normal.x, -normal.y, normal.y, normal.x);
+    strand.near_place = ply_from_view * yarn_place(v, height + above, normal);
+    strand.far_place = ply_from_view * yarn_place(v, height - below, normal);
+    strand.far_share = above + below > 0.0 ? above / (above + below) : 0.0;
+    strand.ply_normal = normal.x * side + normal.y * toward;
+    strand.ply_binormal = normal.x * toward - normal.y * side;
+    strand.piece = fragment_core.z;
+    strand.ply = fragment_core.x;
+    strand.shown = fragment_core.y;
+    radiance = strand_color(strand);
 }

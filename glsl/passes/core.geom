@@ -1,7 +1,7 @@
 #version 460
 // Widens a line of core fiber into a strip that is arched toward the viewer, as its surface is.
 #extension GL_GOOGLE_include_directive : require
-#include "core_strand.glsl"
+#include "bindings.glsl"
 #include "../yarn/core.glsl"
 
 layout(lines) in;
@@ -23,33 +23,18 @@ layout(location = 4) centroid out vec4 fragment_rates;    // of the first three 
 layout(location = 5) centroid out vec3 fragment_place;    // from_yarn along side and toward, level
 layout(location = 6) flat out uvec3 fragment_core;        // ply, what a debug view shows, piece of yarn
 layout(location = 7) noperspective out float fragment_across; // as a share of the ellipse
-layout(location = 8) centroid out vec3 fragment_radiance;     // where it is shaded here
 
 // Across the strip, as shares of its half-width; the arch's height is sqrt(1 - across^2). A ply that is small in
-// the picture gets half as many, unless they are what it is shaded at.
+// the picture gets half as many.
 const float COLUMNS[5] = float[5](-1.0, -0.70710678, 0.0, 0.70710678, 1.0);
 const float SMALL_PX = 8.0;
-
-// Where between the middle and itself a vertex is shaded: an edge stands for the strip beside it as well. Chosen so that
-// a distant core is as bright as when it is shaded at every pixel; at 1 it is 5 to 12% too bright, at 0.85 8 to 15% too dark.
-const float SHADED_INSET = 0.94;
 
 void emit(int end, float across, vec4 seen, vec4 rates) {
     float thickness = core_thickness(place[end].z, yarn);
     float v = across * thickness;
     float height = yarn.core_height * thickness * sqrt(max(0.0, 1.0 - across * across));
-    vec3 position = position_world[end] + seen.x * v * side_world[end]
-                  + (seen.y * height + seen.z * v) * toward_world[end];
-    CorePlace at = CorePlace(position, tangent_world[end], side_world[end], seen, rates, place[end].xyz, core[end], v);
-    vec4 clip = frame.clip_from_world * vec4(position, 1.0);
-    vec3 shaded = vec3(0.0);
-    if (AT_VERTICES) {
-        at.v *= SHADED_INSET;
-        CoreTexel texel = core_texel(at, frame.pixel_tangent * max(clip.w, frame.near_mm));
-        shaded = strand_color(core_strand(at, texel)).rgb;
-    }
-    fragment_radiance = shaded;
-    fragment_position = position;
+    fragment_position = position_world[end] + seen.x * v * side_world[end]
+                      + (seen.y * height + seen.z * v) * toward_world[end];
     fragment_tangent = tangent_world[end];
     fragment_side = side_world[end];
     fragment_across = v;
@@ -57,7 +42,7 @@ void emit(int end, float across, vec4 seen, vec4 rates) {
     fragment_rates = rates;
     fragment_place = place[end].xyz;
     fragment_core = core[end];
-    gl_Position = clip;
+    gl_Position = frame.clip_from_world * vec4(fragment_position, 1.0);
     EmitVertex();
 }
 
@@ -71,7 +56,7 @@ void main() {
     last.w = nearest_turn(last.w, first.w + place[1].w - place[0].w);
     vec4 rates = (last - first) * per_mm * vec4(1.0, 1.0, 1.0, TWO_PI);
     float width_px = 2.0 * first.x / (frame.pixel_tangent * max(gl_in[0].gl_Position.w, frame.near_mm));
-    for (int column = 0; column < 5; column += width_px < SMALL_PX && !AT_VERTICES ? 2 : 1) {
+    for (int column = 0; column < 5; column += width_px < SMALL_PX ? 2 : 1) {
         emit(0, COLUMNS[column], first, rates);
         emit(1, COLUMNS[column], last, rates);
     }

@@ -16,10 +16,8 @@ void main() {
     Segment segment = segments[segment_index[0]];
     vec3 b[4];
     fetch_bezier(segment, b);
-    bool outside = CULLING && outside_frustum(b, yarn.reach + yarn.fiber_radius, frame.frustum_world);
+    bool culled = CULLING && outside_frustum(b, yarn.reach + yarn.fiber_radius, frame.frustum_world);
     float pixel_mm = frame.pixel_tangent * nearest_depth(b, depth_axis(), yarn.reach, frame.near_mm);
-    bool elsewhere = !drawn_here(segment_index[0], pixel_mm);
-    bool culled = outside || elsewhere;
     // The core is thickest where the piece is farthest away.
     float extent_mm = length(b[1] - b[0]) + length(b[2] - b[1]) + length(b[3] - b[2]) + 2.0 * yarn.reach;
     bool empty = core_thickness(detail_at(pixel_mm + frame.pixel_tangent * extent_mm).level, yarn) <= 0.0;
@@ -35,8 +33,8 @@ void main() {
     gl_TessLevelOuter[1] = drawn ? float(pieces) : 0.0;
     if (STATISTICS) {
         // The regular fibers' pass counts the same pieces.
-        if (!REGULAR_FIBERS && !elsewhere) {
-            count_patch(outside);
+        if (!REGULAR_FIBERS) {
+            count_patch(culled);
         }
         count_segments(drawn ? yarn.ply_count * pieces : 0);
     }

@@ -74,7 +74,9 @@ void main() {
     fetch_bezier(segment, b);
     bool outside = CULLING && outside_frustum(b, yarn.reach + yarn.fiber_radius, frame.frustum_world);
     float pixel_mm = frame.pixel_tangent * nearest_depth(b, depth_axis(), yarn.reach, frame.near_mm);
-    bool elsewhere = !drawn_here(segment_index[0], pixel_mm);
+    // Of the yarn itself: it must not change with the hairs' length.
+    float yarn_pixel_mm = frame.pixel_tangent * nearest_depth(b, depth_axis(), 0.0, frame.near_mm);
+    bool elsewhere = !drawn_here(segment_index[0], yarn_pixel_mm);
     bool culled = outside || elsewhere;
 
     uint fiber_count = min(FIBERS_PER_PATCH, yarn.fiber_count - first_fiber[0]);

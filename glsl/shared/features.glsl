@@ -24,7 +24,7 @@ layout(constant_id = 18) const bool SOFT_SHADOWS = true; // some light spans an 
 layout(constant_id = 19) const bool SELF_SHADOW = true; // light is dimmed inside the yarn
 layout(constant_id = 20) const bool TEXTURE_OCCLUSION = false; // ambient light by place, not by distance
 layout(constant_id = 21) const bool YARN_OCCLUSION = true; // other yarns hide parts of the sky
-layout(constant_id = 22) const bool VERTEX_SHADING = true; // strands that are thin in the picture are shaded at their vertices
+layout(constant_id = 22) const bool VERTEX_SHADING = true; // fibers that are thin in the picture are shaded at their vertices
 layout(constant_id = 23) const bool AT_VERTICES = false; // this pipeline draws those, and no others
 
 #endif

@@ -125,7 +125,7 @@ struct Frame {
     float thin_fiber_px;        // narrowest that level of detail draws a fiber
     uint index;                 // of the jittered frame
     float shading_spacing_px;   // between the places of a pixel at which one thing is shaded
-    float vertex_shaded_px;     // width of a ply below which it is shaded at its vertices
+    float vertex_shaded_px;     // width of a ply below which its fibers are shaded at their vertices
     uint light_count;           // of which anything may arrive in this picture
     uint padding_0;
     uint padding_1;

@@ -57,7 +57,7 @@ impl<'a> Planned<'a> {
         let wide = seen.nearest_ply_px > shaded_px * (1.0 - FADE);
         let thin = seen.farthest_ply_px < shaded_px * (1.0 + FADE);
         let anything = match manner {
-            Manner::AtPixels => !whole && (wide || !seen.features.vertex_shading),
+            Manner::AtPixels => !whole && (wide || !seen.features.vertex_shading || strands == Strands::Core),
             Manner::AtVertices => !whole && thin,
             Manner::Whole => whole,
         };

@@ -100,7 +100,6 @@ impl FibersPass {
         // Cores first: what lies behind them is then never shaded.
         let drawn = [
             (Strands::Core, Manner::AtPixels, features.core_fibers_drawn),
-            (Strands::Core, Manner::AtVertices, features.core_fibers_drawn && features.vertex_shading),
             (Strands::Regular, Manner::AtPixels, features.regular_fibers),
             (Strands::Regular, Manner::AtVertices, features.regular_fibers && features.vertex_shading),
             (Strands::Regular, Manner::Whole, features.may_be_whole()),

@@ -85,10 +85,9 @@ pub fn strand_pipeline(
         device,
         &GraphicsPipelineInfo {
             name: match (strands, manner) {
-                (Strands::Core, Manner::AtPixels | Manner::Whole) => "core fibers",
+                (Strands::Core, _) => "core fibers",
                 (Strands::Regular, Manner::AtPixels) => "fibers",
                 (Strands::Regular, Manner::Whole) => "every fiber",
-                (Strands::Core, Manner::AtVertices) => "core fibers, shaded at vertices",
                 (Strands::Regular, Manner::AtVertices) => "fibers, shaded at vertices",
             },
             stages: &stages,

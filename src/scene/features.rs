@@ -54,7 +54,7 @@ pub struct Features {
     pub level_of_detail: bool,
     /// Fibers are drawn one by one.
     pub regular_fibers: bool,
-    /// Strands that are thin in the picture are shaded at their vertices.
+    /// Fibers that are thin in the picture are shaded at their vertices.
     pub vertex_shading: bool,
 }
 
@@ -139,7 +139,7 @@ impl Features {
             regular_fibers: shown != FibersShown::Core,
             vertex_shading: shaded
                 && file.quality.level_of_detail
-                && shown != FibersShown::Every
+                && matches!(shown, FibersShown::Both | FibersShown::Regular)
                 && file.quality.vertex_shaded_samples > 0.0,
         }
     }
@@ -241,7 +241,7 @@ impl Features {
             if self.core_fibers { "quality.level_of_detail is false" } else { "debug.fibers is every" },
         );
         leave(
-            shaded && self.level_of_detail && !self.vertex_shading,
+            shaded && self.level_of_detail && self.regular_fibers && !self.vertex_shading,
             "vertex_shading",
             "quality.vertex_shaded_samples is 0",
         );

@@ -169,7 +169,7 @@ pub struct QualityTable {
     /// Narrowest that level of detail draws a fiber, in distances between a pixel's samples, 0.01 to 10: of
     /// thinner ones some are dropped and the rest drawn this wide, so that they cover as much.
     pub thin_fiber_samples: f64,
-    /// Width of a ply below which level of detail shades its core and fibers at their vertices, not at every pixel, in
+    /// Width of a ply below which level of detail shades its fibers at their vertices, not at every pixel, in
     /// distances between a pixel's samples, 0 (never) to 1000.
     pub vertex_shaded_samples: f64,
     /// A core fiber always stands for the innermost fibers of a ply, as many as make up no more than this
