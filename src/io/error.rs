@@ -48,7 +48,7 @@ impl fmt::Display for FileError {
             Place::Line(line) => write!(f, "line {line}: ")?,
             Place::Curve(curve) => write!(f, "curve {curve}: ")?,
         }
-        f.write_str(&self.message)
+        f.write_str(&plain(&self.message))
     }
 }
 
