@@ -1,6 +1,6 @@
 // What is seen of fibers at one place of the core texture, and how it is shaded: one path for core fibers
 // and single ones (Wu & Yuksel 2019, Sec. 5), whose normals are those of a circle: a layer of the texture that holds
-// them, as published, took 40% longer close up on a software device.
+// them, as published, costs two texture reads a pixel.
 #ifndef WORSTED_SURFACE
 #define WORSTED_SURFACE
 
