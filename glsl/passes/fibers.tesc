@@ -5,8 +5,7 @@
 #include "../yarn/fetch.glsl"
 #include "level.glsl"
 
-// Each looks at an eighth of the group's slots: on a software device, whose lanes they are, one took half as long as
-// all the rest of a distant picture.
+// Each looks at an eighth of the group's slots: lanes that a device would otherwise leave idle.
 const uint LANES = 8u;
 layout(vertices = LANES) out;
 

@@ -47,7 +47,6 @@ impl Bakes {
         let quality = &scene.file.quality;
         let core =
             || bake_core(&fabric.yarn, cross_section, quality.core_texture_rows, quality.core_visible_share);
-        let core = features.core_fibers.then(|| timed(stats, "core_texture", core));
         let scattering = || scattering_table::bake(&fabric.fiber.scattering(), quality.scattering_entries);
         let yarn = &fabric.yarn;
         let extinction_per_mm = scene.file.shading.extinction_scale * extinction_per_mm(yarn);
@@ -67,7 +66,7 @@ impl Bakes {
             self_shadow: features.self_shadow.then(|| timed(stats, "self_shadow", depth)),
             shadow_radius_mm: if hides { shadow() } else { yarn.outer_radius_mm() },
             extinction: extinction_per_mm * yarn.outer_radius_mm(),
-            core,
+            core: features.core_fibers.then(|| timed(stats, "core_texture", core)),
             scattering: features.physical.then(|| timed(stats, "scattering_table", scattering)),
         }
     }
