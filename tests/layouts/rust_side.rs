@@ -109,6 +109,8 @@ pub fn layouts() -> Vec<Layout> {
             scattering_entries,
             first_piece,
             shadow_radius,
+            ply_cos,
+            ply_sin,
             padding,
             occlusion,
             occlusion_lean,
