@@ -271,6 +271,8 @@ pub struct Statistics {
     pub fiber_segments_low: u32,
     /// High word.
     pub fiber_segments_high: u32,
+    /// Pieces of yarn drawn with fewer pieces of fiber than the tolerance asks for.
+    pub patches_coarse: u32,
 }
 
 impl Statistics {

@@ -140,6 +140,7 @@ struct Statistics {
     uint patches_culled;
     uint fiber_segments_low;
     uint fiber_segments_high;
+    uint patches_coarse;    // drawn with fewer pieces of fiber than the tolerance asks for
 };
 
 #endif
