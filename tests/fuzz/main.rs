@@ -8,6 +8,7 @@
 mod allocator;
 mod corpus;
 mod mutate;
+#[expect(clippy::panic, reason = "what a fuzzer must see of a reader that broke its word")]
 #[path = "../../tools/fuzz/target.rs"]
 mod target;
 mod targets;
