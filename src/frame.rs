@@ -29,6 +29,7 @@ use crate::shaders::ShaderSet;
 use crate::vulkan::{Buffer, Device, ImageState, MemoryKind, Taken, VulkanError, vk};
 use crate::yarn::table::fiber_table;
 use bake::Bakes;
+pub use bake::check_tables;
 use cloth::Cloth;
 use lighting::{LightRoom, light_scale, lights_that_reach};
 use plan::Planned;
@@ -88,7 +89,7 @@ impl Renderer {
     /// Uploads the scene and builds the passes it needs.
     ///
     /// # Errors
-    /// Those of the device: too large, out of memory, lost.
+    /// Those of the device: too large, out of memory, lost; what [`check_tables`] refuses.
     pub fn new(device: &Arc<Device>, scene: Scene, request: Request) -> Result<Self, VulkanError> {
         Self::with_shaders(device, scene, request, ShaderSet::default())
     }
@@ -141,7 +142,7 @@ impl Renderer {
         let of_fabrics = scene.fabrics.iter().zip(&features).zip(&cross_sections);
         let bakes: Vec<Bakes> = of_fabrics
             .map(|((fabric, features), fibers)| Bakes::new(&scene, fabric, features, fibers, &mut stats))
-            .collect();
+            .collect::<Result<_, _>>()?;
         let skies = bake::skies(&scene, &bakes, &features, &mut stats);
         for (index, (fabric, features)) in scene.fabrics.iter().zip(features).enumerate() {
             let baked = upload::FabricBakes {

@@ -157,8 +157,12 @@ pub struct Yarn {
     pub first_piece: u32,
     /// Of the opaque tube that takes as much light from others.
     pub shadow_radius: f32,
+    /// Cosine of the angle from each ply to the next.
+    pub ply_cos: f32,
+    /// Its sine.
+    pub ply_sin: f32,
     /// Nothing.
-    pub padding: [u32; 3],
+    pub padding: u32,
     /// Visibility as a cubic of (distance from the centre / outer radius).
     pub occlusion: [f32; 4],
     /// How much more of it comes from outside than from the other side, likewise.
@@ -267,6 +271,8 @@ pub struct Statistics {
     pub fiber_segments_low: u32,
     /// High word.
     pub fiber_segments_high: u32,
+    /// Pieces of yarn drawn with fewer pieces of fiber than the tolerance asks for.
+    pub patches_coarse: u32,
 }
 
 impl Statistics {

@@ -24,8 +24,9 @@ void main() {
 
     // Besides the ply's own turn, the texture follows the turn of its ellipse as seen, which is uneven.
     float uneven_mm = yarn.ply_radius * abs(yarn.ellipse_long / yarn.ellipse_short - 1.0);
-    uint pieces = subdivisions(b, segment.ply_turns_delta, 0.0, yarn.ply_offset, uneven_mm,
-                               frame.tolerance_px * pixel_mm, PIECES_PER_TURN, yarn.max_subdivisions);
+    uint needed = subdivisions(b, segment.ply_turns_delta, 0.0, yarn.ply_offset, uneven_mm,
+                               frame.tolerance_px * pixel_mm, PIECES_PER_TURN, yarn.max_subdivisions + 1u);
+    uint pieces = min(needed, yarn.max_subdivisions);
     patch_segment = segment_index[0];
     patch_pieces = pieces;
     bool drawn = !culled && !empty;
@@ -35,6 +36,7 @@ void main() {
         // The regular fibers' pass counts the same pieces.
         if (!REGULAR_FIBERS) {
             count_patch(culled);
+            count_coarse(drawn && needed > yarn.max_subdivisions);
         }
         count_segments(drawn ? yarn.ply_count * pieces : 0);
     }

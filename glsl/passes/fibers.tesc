@@ -54,7 +54,7 @@ uvec2 all_slots() {
     return mask;
 }
 
-uint pieces_of(Segment segment, vec3 b[4], float pixel_mm) {
+uint pieces_of(Segment segment, vec3 b[4], float pixel_mm, uint most) {
     float fiber_reach = yarn.ellipse_long;
     if (FLYAWAYS) {
         // Loops and hairs turn about the ply farther out than its other fibers.
@@ -63,8 +63,8 @@ uint pieces_of(Segment segment, vec3 b[4], float pixel_mm) {
         fiber_reach *= max(1.0, max(hair, loop));
     }
     uint pieces = subdivisions(b, segment.ply_turns_delta, segment.fiber_turns_delta, yarn.ply_offset,
-                               fiber_reach, frame.tolerance_px * pixel_mm, PIECES_PER_TURN, yarn.max_subdivisions);
-    return FLYAWAYS ? period_pieces(pieces, period_rate(segment, yarn), yarn.max_subdivisions) : pieces;
+                               fiber_reach, frame.tolerance_px * pixel_mm, PIECES_PER_TURN, most);
+    return FLYAWAYS ? period_pieces(pieces, period_rate(segment, yarn), most) : pieces;
 }
 
 void main() {
@@ -90,7 +90,7 @@ void main() {
         patch_mask = all_slots();
         fiber_count = uint(bitCount(patch_mask.x) + bitCount(patch_mask.y));
     }
-    uint pieces = culled || fiber_count == 0u ? 1u : pieces_of(segment, b, pixel_mm);
+    uint pieces = culled || fiber_count == 0u ? 1u : pieces_of(segment, b, pixel_mm, yarn.max_subdivisions);
     patch_segment = segment_index[0];
     patch_first_fiber = first_fiber[0];
     // The evaluation stage sees levels before clamping, so it gets the counts themselves.
@@ -101,6 +101,7 @@ void main() {
     if (STATISTICS) {
         if (first_fiber[0] == 0 && !elsewhere) {
             count_patch(outside);
+            count_coarse(!outside && pieces_of(segment, b, pixel_mm, yarn.max_subdivisions + 1u) > yarn.max_subdivisions);
         }
         count_segments(culled ? 0 : fiber_count * pieces);
     }

@@ -56,6 +56,12 @@ void count_patch(bool culled) {
     }
 }
 
+void count_coarse(bool coarse) {
+    if (coarse) {
+        atomicAdd(statistics.patches_coarse, 1);
+    }
+}
+
 void count_segments(uint fiber_segments) {
     uint before = atomicAdd(statistics.fiber_segments_low, fiber_segments);
     if (before + fiber_segments < before) {

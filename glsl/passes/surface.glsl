@@ -8,6 +8,7 @@
 #include "../bsdf/khungurn.glsl"
 #include "../bsdf/simple.glsl"
 #include "../lib/strip.glsl"
+#include "../shading/chord_shadow.glsl"
 #include "../shading/environment.glsl"
 #include "../shading/light.glsl"
 #include "../shading/occlusion.glsl"
@@ -90,9 +91,17 @@ Scattering yarn_scattering() {
 // Share of light from a direction in the yarn's cross-section that comes through to a place there.
 float through_yarn_to(vec2 place, vec2 light) {
     // Every ply sees the others alike: this one stands for ply 0.
-    uvec2 size = uvec2(textureSize(self_shadow_table, 0).xz);
-    vec3 at = self_shadow_place(place, light, yarn.ply_count, size);
-    return self_shadow_light(self_shadow_depth(self_shadow_table, at), yarn.diffuse.a, min(1.0, length(light)));
+    float depth;
+    if (CHORD_SHADOW) {
+        float scale = 1.0 / yarn.outer_radius;
+        Plies plies = Plies(yarn.ply_count, scale * yarn.ply_offset, scale * vec2(yarn.ellipse_short, yarn.ellipse_long),
+                            vec2(yarn.ply_cos, yarn.ply_sin));
+        depth = chord_depth(self_shadow_table, place, light, plies);
+    } else {
+        uvec2 size = uvec2(textureSize(self_shadow_table, 0).xz);
+        depth = self_shadow_depth(self_shadow_table, self_shadow_place(place, light, yarn.ply_count, size));
+    }
+    return self_shadow_light(depth, yarn.diffuse.a, min(1.0, length(light)));
 }
 
 // Share of the light from `direction` that its own yarn lets through to a fiber.

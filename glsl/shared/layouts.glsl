@@ -79,7 +79,9 @@ struct Yarn {
     uint scattering_entries; // of each lobe's table
     uint first_piece;       // of this fabric's, counted through all fabrics
     float shadow_radius;    // of the opaque tube that takes as much light from others
-    uint padding[3];
+    float ply_cos;          // of the angle from each ply to the next
+    float ply_sin;
+    uint padding;
     vec4 occlusion;         // visibility as a cubic of (distance from the centre / outer_radius)
     vec4 occlusion_lean;    // how much more of it comes from outside, likewise
     vec4 diffuse;           // k_d, rgb; a: extinction per outer_radius
@@ -138,6 +140,7 @@ struct Statistics {
     uint patches_culled;
     uint fiber_segments_low;
     uint fiber_segments_high;
+    uint patches_coarse;    // drawn with fewer pieces of fiber than the tolerance asks for
 };
 
 #endif

@@ -5,7 +5,7 @@ use super::budget::BudgetJob;
 use super::output::Output;
 use crate::cli::say::tell;
 use crate::error::Error;
-use crate::frame::Request;
+use crate::frame::{Request, check_tables};
 use crate::io::picture::{MAX_PIXELS, MAX_SIDE};
 use crate::io::whole::check_target;
 use crate::reference::fibers::RealiseSettings;
@@ -56,6 +56,7 @@ impl RenderJob {
         };
         let sets = assignments(&args.scene, args.view.camera.as_deref())?;
         let scene = Scene::load(&args.scene.path, &sets)?;
+        check_tables(&scene)?;
         Ok(Self {
             asked_for: None,
             scene,

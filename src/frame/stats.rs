@@ -36,6 +36,9 @@ pub struct Stats {
     pub patches_drawn: Option<u64>,
     /// Pieces of yarn outside the picture.
     pub patches_culled: Option<u64>,
+    /// Of those drawn, how many have fibers that are cut less finely than `quality.subdivision_tolerance_px` asks for:
+    /// `quality.max_subdivisions` limits them.
+    pub patches_coarse: Option<u64>,
     /// Wall time of whole pictures on the device.
     pub frame_ms: Spread,
     /// The same by the device's own clock, where it has one.
@@ -78,6 +81,7 @@ impl Stats {
             triangles: None,
             patches_drawn: None,
             patches_culled: None,
+            patches_coarse: None,
             frame_ms: Spread::default(),
             device_ms: None,
             passes: BTreeMap::new(),
@@ -124,6 +128,7 @@ impl Stats {
         self.triangles = Some(2 * segments);
         self.patches_drawn = Some(counted.patches_drawn.into());
         self.patches_culled = Some(u64::from(counted.patches_culled) + unseen);
+        self.patches_coarse = Some(counted.patches_coarse.into());
     }
 
     pub(super) fn add_frame(&mut self, taken: Taken, passes: HashMap<&'static str, Duration>) {
@@ -209,6 +214,7 @@ mod tests {
                 triangles: None,
                 patches_drawn: None,
                 patches_culled: None,
+                patches_coarse: None,
                 frame_ms: Spread::default(),
                 device_ms: None,
                 passes: BTreeMap::new(),

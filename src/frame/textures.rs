@@ -1,5 +1,6 @@
 //! Baked tables as images.
 
+use crate::precompute::chord_shadow::ChordShadow;
 use crate::precompute::core_texture::{CoreMip, CoreTexture, Moments};
 use crate::precompute::occlusion_table::OcclusionTable;
 use crate::precompute::self_shadow::SelfShadowTable;
@@ -17,6 +18,14 @@ const READ: vk::ImageUsageFlags = vk::ImageUsageFlags::from_raw(
 /// Those of the device.
 pub fn self_shadow_image(device: &Arc<Device>, table: &SelfShadowTable) -> Result<Image, VulkanError> {
     half_image(device, "self-shadow table", table.size.extent(), true, &table.depths)
+}
+
+/// The table of a ply's chords, as a volume of one slice.
+///
+/// # Errors
+/// Those of the device.
+pub fn chord_shadow_image(device: &Arc<Device>, table: &ChordShadow) -> Result<Image, VulkanError> {
+    half_image(device, "self-shadow table", ChordShadow::EXTENT, true, &table.rests)
 }
 
 /// The texture of ambient light inside the yarn.

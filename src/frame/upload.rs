@@ -6,6 +6,7 @@ use super::textures;
 use crate::gpu_types::{ControlPoint, Fiber, Frame, LENGTH_STRIPE, Segment, Yarn};
 use crate::math::frame::octahedral_from_normal;
 use crate::passes::fiber_sets::FabricBuffers;
+use crate::precompute::chord_shadow::Plies;
 use crate::precompute::environment::{Environment, project_environment};
 use crate::precompute::occlusion_fit::OcclusionFit;
 use crate::precompute::scattering_table::{ScatteringTable, azimuthal_constants};
@@ -78,6 +79,7 @@ pub fn yarn(fabric: &Fabric, quality: &QualityTable, bakes: &Bakes, first_piece:
     let core = bakes.core.as_ref();
     let params = &fabric.yarn;
     let flyaways = Flyaways::new(params);
+    let plies = Plies::new(params);
     let spread = |spread: Spread| (spread.mean as f32, spread.deviation as f32);
     let (loop_radius_mean, loop_radius_sd) = spread(flyaways.loop_radius);
     let (hair_start_mean, hair_start_sd) = spread(flyaways.hair_start);
@@ -137,7 +139,9 @@ pub fn yarn(fabric: &Fabric, quality: &QualityTable, bakes: &Bakes, first_piece:
         scattering_entries: quality.scattering_entries,
         first_piece,
         shadow_radius: bakes.shadow_radius_mm as f32,
-        padding: [0; 3],
+        ply_cos: plies.turn.x as f32,
+        ply_sin: plies.turn.y as f32,
+        padding: 0,
         diffuse: with(DVec3::from_array(fiber.diffuse()), bakes.extinction),
         specular: with(DVec3::from_array(fiber.specular()), fiber.specular_width()),
         reflection: with(scattering.c_r, scattering.beta_r),
@@ -235,6 +239,7 @@ pub fn fabric_buffers(
             .self_shadow
             .as_ref()
             .map(|t| textures::self_shadow_image(device, t))
+            .or_else(|| bakes.chord_shadow.as_ref().map(|t| textures::chord_shadow_image(device, t)))
             .transpose()?,
         occlusion: bakes
             .occlusion_texture

@@ -55,12 +55,12 @@ impl ChordTable {
 
 /// Place of a chord among all, from 0 for those at the rim to 1 for those through the middle: even in half its
 /// length near the rim, and in its distance from the middle near that, where densities change as these do.
-fn chord_share(half: f64) -> f64 {
+pub fn chord_share(half: f64) -> f64 {
     0.5 * (1.0 + half - (1.0 - half * half).max(0.0).sqrt())
 }
 
 /// The inverse of [`chord_share`].
-fn half_of_share(share: f64) -> f64 {
+pub fn half_of_share(share: f64) -> f64 {
     let difference = 2.0 * share - 1.0;
     (0.5 * (difference + (2.0 - difference * difference).sqrt())).clamp(0.0, 1.0)
 }

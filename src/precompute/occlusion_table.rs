@@ -2,7 +2,7 @@
 //! the twin of `glsl/shading/occlusion.glsl`.
 
 use super::chord_table::ChordTable;
-use super::optical_depth::{CrossSection, optical_depth_mm, ply_tangent_angles};
+use super::optical_depth::{CrossSection, flat_ply_angles, optical_depth_mm, ply_tangent_angles};
 use super::table::{filtered, node, node_coordinate};
 use crate::math::quadrature::gauss_legendre;
 use crate::yarn::params::YarnParams;
@@ -11,9 +11,9 @@ use half::f16;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// Texels across a table where nothing is said.
+/// Texels across a table where nothing is said, and that is enough ([`super::occlusion_size`]).
 pub const OCCLUSION_ACROSS: u32 = 256;
-/// Largest error of a table of that size.
+/// Largest error of a table of the size that is enough.
 pub const OCCLUSION_LIMIT: f64 = 0.01;
 
 /// The table: a square around the outer circle with ply 0 along +x, its outermost texels on its edges.
@@ -32,13 +32,7 @@ pub fn bake_occlusion_table(yarn: &YarnParams, extinction_per_mm: f64, across: u
     let section = CrossSection::new(yarn);
     let chords = ChordTable::new(&section.density);
     let row = |y: u32| -> Vec<f16> {
-        let texel = |x| {
-            let position = DVec2::new(2.0 * node(x, across) - 1.0, 2.0 * node(y, across) - 1.0);
-            let depth = |from: DVec2, toward: DVec2| {
-                section.lines(from, toward).map(|line| line.depth_by(&chords)).sum()
-            };
-            f16::from_f64(mean_visibility(yarn, extinction_per_mm, position, depth))
-        };
+        let texel = |x| f16::from_f64(baked_occlusion(&section, &chords, extinction_per_mm, [x, y], across));
         (0..across).map(texel).collect()
     };
     // Mirrored about ply 0's axis the plies are themselves again.
@@ -51,6 +45,20 @@ pub fn bake_occlusion_table(yarn: &YarnParams, extinction_per_mm: f64, across: u
     OcclusionTable { across, visibilities }
 }
 
+/// The texel at a place of a table so many texels across.
+pub fn baked_occlusion(
+    section: &CrossSection<'_>,
+    chords: &ChordTable,
+    extinction_per_mm: f64,
+    texel: [u32; 2],
+    across: u32,
+) -> f64 {
+    let position = DVec2::from_array(texel.map(|k| 2.0 * node(k, across) - 1.0));
+    let depth =
+        |from: DVec2, toward: DVec2| section.lines(from, toward).map(|line| line.depth_by(chords)).sum();
+    mean_visibility(section.yarn, extinction_per_mm, position, depth)
+}
+
 /// What the table stands for: the integral itself, at `position` in outer radii.
 pub fn exact_occlusion(section: &CrossSection<'_>, extinction_per_mm: f64, position: DVec2) -> f64 {
     mean_visibility(section.yarn, extinction_per_mm, position, |from, toward| {
@@ -60,7 +68,8 @@ pub fn exact_occlusion(section: &CrossSection<'_>, extinction_per_mm: f64, posit
 
 /// Mean over all directions of exp(-extinction x depth) from `position` in outer radii; `depth_mm` is given it in
 /// mm and a unit direction. What a line meets changes as a square root where it comes to touch a ply, so that
-/// quadrature starts anew there, with nodes that crowd toward both ends of each piece.
+/// quadrature starts anew there, and at the long axes of flat plies, with nodes that crowd toward both ends of each
+/// piece.
 fn mean_visibility(
     yarn: &YarnParams,
     extinction_per_mm: f64,
@@ -69,6 +78,7 @@ fn mean_visibility(
 ) -> f64 {
     let from = position * yarn.outer_radius_mm();
     let mut angles = ply_tangent_angles(yarn, from);
+    angles.extend(flat_ply_angles(yarn));
     angles.sort_by(f64::total_cmp);
     angles.extend(angles.first().map(|first| first + TAU));
     let piece = |ends: &[f64]| {

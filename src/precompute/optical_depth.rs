@@ -116,6 +116,22 @@ pub fn ply_tangent_angles(yarn: &YarnParams, position: DVec2) -> Vec<f64> {
     (0..yarn.ply_count).flat_map(of_ply).collect()
 }
 
+/// Ratio of a ply's half-axes from which on its ellipse counts as flat.
+const FLAT: f64 = 2.0;
+
+/// Angles in radians, two for each ply that is flat, of its long axis: within so small a share of the turn as the ply is
+/// flat, what a line from inside of it meets grows from little to much there.
+pub fn flat_ply_angles(yarn: &YarnParams) -> Vec<f64> {
+    let (short, long) = (yarn.ellipse_short_mm, yarn.ellipse_long_mm);
+    let axis = if long > short { DVec2::Y } else { DVec2::X };
+    let plies = if (long / short).max(short / long) > FLAT { yarn.ply_count } else { 0 };
+    let of_ply = |ply: u32| {
+        let along = DVec2::from_angle(TAU * f64::from(ply) / f64::from(yarn.ply_count)).rotate(axis);
+        [along.to_angle(), (-along).to_angle()]
+    };
+    (0..plies).flat_map(of_ply).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

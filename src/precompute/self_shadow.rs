@@ -5,6 +5,7 @@ use super::optical_depth::{CrossSection, PlyLine, optical_depth_mm};
 use super::table::{filtered, node, node_coordinate};
 use super::table_error::TableError;
 use crate::math::angle::angle_of;
+use crate::yarn::inside::{SELF_SHADOW_ACROSS, SELF_SHADOW_SLICES};
 use crate::yarn::params::YarnParams;
 use glam::{DVec2, DVec3};
 use half::f16;
@@ -14,7 +15,8 @@ use std::f64::consts::{PI, TAU};
 /// Sine of the least angle between light and yarn that lengthens the way into it.
 pub const SELF_SHADOW_LEAST_SIN: f64 = 0.125;
 
-/// What a table of the default size keeps within, as shares of its largest depth.
+/// What a table of the default size keeps within, as shares of its largest depth, for yarns that fit it
+/// ([`crate::yarn::inside::fits_table`]).
 pub const SELF_SHADOW_LIMIT: TableError = TableError { rms: 4e-3, p99: 0.02, worst: 0.05 };
 
 /// Sides of the table in texels.
@@ -29,7 +31,7 @@ pub struct SelfShadowSize {
 
 impl Default for SelfShadowSize {
     fn default() -> Self {
-        Self { across: 128, slices: 32 }
+        Self { across: SELF_SHADOW_ACROSS, slices: SELF_SHADOW_SLICES }
     }
 }
 

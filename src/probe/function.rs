@@ -3,6 +3,7 @@
 use super::entries::Entries;
 use super::fields::{Field, Values};
 use super::{curve, inside, scattering};
+use crate::precompute::chord_shadow::ChordShadow;
 use crate::precompute::occlusion_table::OcclusionTable;
 use crate::precompute::self_shadow::SelfShadowTable;
 
@@ -61,14 +62,16 @@ pub struct OnDevice {
 pub struct TableOf {
     /// How many of them.
     pub numbers: usize,
-    /// Bakes it, as the renderer does.
-    pub bake: fn(Values<'_>) -> Table,
+    /// Bakes it, as the renderer does, or says in one line why none is good enough.
+    pub bake: fn(Values<'_>) -> Result<Table, String>,
 }
 
 /// A baked table.
 pub enum Table {
     /// Optical depth inside a yarn.
     SelfShadow(SelfShadowTable),
+    /// The same ply by ply.
+    Chords(ChordShadow),
     /// Ambient light inside a yarn.
     Occlusion(OcclusionTable),
 }

@@ -3,11 +3,14 @@
 use super::fields::{Domain, EXTINCTION, PHI, PLACE, SHARE, Values, field};
 use super::function::{Function, OnDevice, Shape, Table, TableOf, any, as_given, words};
 use super::yarn::bare_yarn;
-use crate::precompute::occlusion_table::{OCCLUSION_ACROSS, bake_occlusion_table, exact_occlusion};
+use crate::precompute::chord_shadow::{Plies, bake_chord_shadow};
+use crate::precompute::occlusion_size::occlusion_across;
+use crate::precompute::occlusion_table::{OCCLUSION_LIMIT, bake_occlusion_table, exact_occlusion};
 use crate::precompute::optical_depth::CrossSection;
 use crate::precompute::self_shadow::{SelfShadowSize, bake_self_shadow, exact_self_shadow_depth};
 use crate::yarn::density::fiber_density;
-use crate::yarn::params::YarnParams;
+use crate::yarn::inside::fits_table;
+use crate::yarn::params::{MOST_THIN, YarnParams};
 use glam::DVec2;
 
 /// p(R).
@@ -49,8 +52,9 @@ fn yarn(query: &mut Values<'_>) -> YarnParams {
 pub const SELF_SHADOW_DEPTH: Function = Function {
     name: "self_shadow_depth",
     about: "integral of all plies' densities from a place in the cross-section, ply 0 centred at (ply_offset, 0), \
-            toward light at light_angle across the yarn, in the lengths' unit; on the device by the table (Wu & \
-            Yuksel 2019, Sec. 4.1)",
+            toward light at light_angle across the yarn, in the lengths' unit, of plies no thinner than a \
+            thousandth of the yarn; on the device by the table that the renderer takes for the yarn (Wu & Yuksel \
+            2019, Sec. 4.1)",
     fields: &[
         field("yarn.ply_count", Domain::Yarn("ply_count")),
         field("yarn.ply_offset", Domain::Yarn("yarn_radius_mm")),
@@ -62,7 +66,7 @@ pub const SELF_SHADOW_DEPTH: Function = Function {
         field("light_angle", PHI),
     ],
     results: &[("optical_depth", Shape::Number)],
-    check: any,
+    check: |mut query| thick_enough(&yarn(&mut query)),
     exact: |mut query| {
         let yarn = yarn(&mut query);
         let radius = yarn.outer_radius_mm();
@@ -75,8 +79,10 @@ pub const SELF_SHADOW_DEPTH: Function = Function {
         words: |mut query, _| {
             let yarn = yarn(&mut query);
             let (position, light) = (query.vec2() / yarn.outer_radius_mm(), DVec2::from_angle(query.real()));
+            let plies = Plies::new(&yarn);
             let mut row = words([position.x, position.y, light.x, light.y]);
-            row.push(yarn.ply_count);
+            row.extend([u32::from(!fits_table(&yarn)), plies.count]);
+            row.extend(words([plies.offset, plies.axes.x, plies.axes.y, plies.turn.x, plies.turn.y]));
             row
         },
         finish: |mut query, given| {
@@ -86,7 +92,12 @@ pub const SELF_SHADOW_DEPTH: Function = Function {
         table: Some(TableOf {
             numbers: YARN_NUMBERS,
             bake: |mut query| {
-                Table::SelfShadow(bake_self_shadow(&yarn(&mut query), SelfShadowSize::default()))
+                let yarn = yarn(&mut query);
+                Ok(if fits_table(&yarn) {
+                    Table::SelfShadow(bake_self_shadow(&yarn, SelfShadowSize::default()))
+                } else {
+                    Table::Chords(bake_chord_shadow(&yarn))
+                })
             },
         }),
     },
@@ -96,8 +107,9 @@ pub const SELF_SHADOW_DEPTH: Function = Function {
 pub const AMBIENT_OCCLUSION: Function = Function {
     name: "ambient_occlusion",
     about: "mean over directions across the yarn of exp(-extinction x optical depth), extinction per unit of length \
-            and density, from a place no farther out, either way, than the yarn's outer radius; on the device by the \
-            table (Wu & Yuksel 2019, Sec. 4.2)",
+            and density, from a place no farther out, either way, than the yarn's outer radius, of plies no thinner \
+            than a thousandth of the yarn; on the device by the table, an error where none is within 0.01 (Wu & \
+            Yuksel 2019, Sec. 4.2)",
     fields: &[
         field("yarn.ply_count", Domain::Yarn("ply_count")),
         field("yarn.ply_offset", Domain::Yarn("yarn_radius_mm")),
@@ -126,7 +138,13 @@ pub const AMBIENT_OCCLUSION: Function = Function {
             numbers: YARN_NUMBERS + 1,
             bake: |mut query| {
                 let (yarn, extinction) = (yarn(&mut query), query.real());
-                Table::Occlusion(bake_occlusion_table(&yarn, extinction, OCCLUSION_ACROSS))
+                let across = occlusion_across(&yarn, extinction).map_err(|left| {
+                    format!(
+                        "yarn, extinction = {extinction}: expected what a table shows to {OCCLUSION_LIMIT}, \
+                         found an error of {left:.3}"
+                    )
+                })?;
+                Ok(Table::Occlusion(bake_occlusion_table(&yarn, extinction, across)))
             },
         }),
     },
@@ -135,11 +153,26 @@ pub const AMBIENT_OCCLUSION: Function = Function {
 /// Whether the place lies in the square around the yarn's outer circle: beyond it the table, and with it the
 /// renderer, takes the value at its edge.
 fn in_reach(mut query: Values<'_>) -> Result<(), String> {
-    let (radius, _extinction) = (yarn(&mut query).outer_radius_mm(), query.real());
+    let (yarn, _extinction) = (yarn(&mut query), query.real());
+    thick_enough(&yarn)?;
+    let radius = yarn.outer_radius_mm();
     let place = query.vec2();
     // What lies on the edge may have been rounded beyond it.
     if place.abs().max_element() <= radius * (1.0 + f64::from(f32::EPSILON)) {
         return Ok(());
     }
     Err(format!("position = {place}: expected at most the yarn's outer radius, {radius}, either way"))
+}
+
+/// Whether f32 has place for the yarn's plies in its cross-section.
+fn thick_enough(yarn: &YarnParams) -> Result<(), String> {
+    let ((key, thinnest), radius) = (yarn.thinnest(), yarn.outer_radius_mm());
+    let key = key.trim_end_matches("_mm");
+    // What lies on the edge may have been rounded beyond it.
+    if thinnest * MOST_THIN * (1.0 + f64::from(f32::EPSILON)) >= radius {
+        return Ok(());
+    }
+    Err(format!(
+        "yarn.{key} = {thinnest}: expected at least 1/{MOST_THIN} of the yarn's outer radius, {radius}"
+    ))
 }

@@ -3,6 +3,7 @@
 use super::entries::Entries;
 use super::fields::Values;
 use super::function::{Function, Table, TableOf};
+use crate::precompute::chord_shadow::ChordShadow;
 use crate::shaders::ShaderSet;
 use crate::vulkan::{
     Access, Binding, Buffer, ComputePipelineInfo, DescriptorLayout, DescriptorSet, Device, Image, ImageInfo,
@@ -16,7 +17,7 @@ use std::sync::Arc;
 
 /// Invocations of a work group, in `glsl/test/kernel.glsl`.
 const GROUP: u32 = 64;
-/// Baked tables kept on the device, of at most a mebibyte each.
+/// Baked tables kept on the device, of at most two mebibytes each.
 const MOST_TABLES: usize = 64;
 
 /// Push constants of `glsl/test/kernel.glsl`.
@@ -36,8 +37,13 @@ pub struct Kernel {
     pipeline: Pipeline,
     sampler: Sampler,
     entries: Entries,
-    tables: Vec<(Vec<u64>, Image)>,
+    tables: Vec<(Vec<u64>, Kept)>,
 }
+
+/// Numbers, or why there are none.
+pub type Answer = Result<Vec<f64>, String>;
+/// A table on the device, or why none is good enough.
+type Kept = Result<Image, String>;
 
 impl Kernel {
     /// Compiles the kernel.
@@ -84,20 +90,32 @@ impl Kernel {
         })
     }
 
-    /// The function's answer to each query, in order.
+    /// The function's answer to each query, in order; in its place why there is none, where no table is good enough.
     ///
     /// # Errors
     /// Those of the device.
-    pub fn answers(&mut self, queries: &[&[f64]]) -> Result<Vec<Vec<f64>>, VulkanError> {
-        let Some(table) = self.function.device.table else { return self.run(queries, None) };
-        let mut answers = vec![Vec::new(); queries.len()];
+    pub fn answers(&mut self, queries: &[&[f64]]) -> Result<Vec<Answer>, VulkanError> {
+        let Some(table) = self.function.device.table else {
+            return Ok(self.run(queries, None)?.into_iter().map(Ok).collect());
+        };
+        let mut answers = vec![Ok(Vec::new()); queries.len()];
         for group in groups(queries, table.numbers) {
             let members: Vec<&[f64]> = group.iter().map(|index| queries[*index]).collect();
-            let image = self.table(table, members[0])?;
-            let found = self.run(&members, Some(&image))?;
+            let found: Vec<Answer> = match self.table(table, members[0])? {
+                Ok(image) => self.run(&members, Some(&image))?.into_iter().map(Ok).collect(),
+                Err(why) => vec![Err(why); members.len()],
+            };
             group.into_iter().zip(found).for_each(|(index, answer)| answers[index] = answer);
         }
         Ok(answers)
+    }
+
+    /// The same for functions and queries whose tables are known to be good enough.
+    ///
+    /// # Errors
+    /// Those of the device; a query without an answer.
+    pub fn numbers(&mut self, queries: &[&[f64]]) -> Result<Vec<Vec<f64>>, VulkanError> {
+        self.answers(queries)?.into_iter().map(|answer| answer.map_err(VulkanError::misuse)).collect()
     }
 
     fn run(&self, queries: &[&[f64]], table: Option<&Image>) -> Result<Vec<Vec<f64>>, VulkanError> {
@@ -133,19 +151,20 @@ impl Kernel {
     }
 
     /// The table of a query, from those kept or baked.
-    fn table(&mut self, table: TableOf, query: &[f64]) -> Result<Image, VulkanError> {
+    fn table(&mut self, table: TableOf, query: &[f64]) -> Result<Kept, VulkanError> {
         let key = key(query, table.numbers);
         if let Some(at) = self.tables.iter().position(|(kept, _)| *kept == key) {
             let kept = self.tables.remove(at);
             self.tables.push(kept);
         } else {
             if self.tables.len() >= MOST_TABLES {
-                self.tables.remove(0);
+                drop(self.tables.remove(0));
             }
             let baked = (table.bake)(Values::new(query));
-            self.tables.push((key, image(&self.device, &baked)?));
+            let kept = baked.map(|baked| image(&self.device, &baked));
+            self.tables.push((key, kept.map_or_else(|why| Ok(Err(why)), |image| image.map(Ok))?));
         }
-        self.tables.last().map(|(_, image)| image.clone()).ok_or_else(|| VulkanError::misuse("no table"))
+        self.tables.last().map(|(_, kept)| kept.clone()).ok_or_else(|| VulkanError::misuse("no table"))
     }
 }
 
@@ -170,6 +189,7 @@ fn groups(queries: &[&[f64]], numbers: usize) -> Vec<Vec<usize>> {
 fn image(device: &Arc<Device>, table: &Table) -> Result<Image, VulkanError> {
     let (extent, volume, texels): ([u32; 3], bool, &[f16]) = match table {
         Table::SelfShadow(table) => (table.size.extent(), true, &table.depths),
+        Table::Chords(table) => (ChordShadow::EXTENT, true, &table.rests),
         Table::Occlusion(table) => ([table.across, table.across, 1], false, &table.visibilities),
     };
     let usage = vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::SAMPLED;

@@ -2,7 +2,7 @@
 
 use super::fields::Values;
 use super::function::Function;
-use super::kernel::Kernel;
+use super::kernel::{Answer, Kernel};
 use super::line::{answer, error, parse};
 use crate::error::Error;
 use rayon::prelude::*;
@@ -52,10 +52,10 @@ pub fn probe(
         let mut text = Vec::new();
         for query in &values {
             tally.lines += 1;
-            let answered = query.as_ref().map_err(String::clone).and_then(|query| {
-                let numbers = found.next().unwrap_or_default();
-                answer(function, query, &numbers)
-            });
+            let answered = query
+                .as_ref()
+                .map_err(String::clone)
+                .and_then(|query| answer(function, query, &found.next().unwrap_or_else(|| Ok(Vec::new()))?));
             let line = answered.unwrap_or_else(|message| {
                 tally.errors += 1;
                 error(tally.lines, &message)
@@ -72,11 +72,11 @@ fn evaluate(
     function: &'static Function,
     kernel: Option<&mut Kernel>,
     values: &[Result<Vec<f64>, String>],
-) -> Result<Vec<Vec<f64>>, Error> {
+) -> Result<Vec<Answer>, Error> {
     let good: Vec<&[f64]> = values.iter().flatten().map(Vec::as_slice).collect();
     Ok(match kernel {
         Some(kernel) => kernel.answers(&good)?,
-        None => good.par_iter().map(|query| (function.exact)(Values::new(query))).collect(),
+        None => good.par_iter().map(|query| Ok((function.exact)(Values::new(query)))).collect(),
     })
 }
 

@@ -4,6 +4,7 @@ use super::Fabric;
 use super::file::{DebugView, FibersShown, OcclusionMode, SceneFile, ShadingModel};
 use crate::math::curve::Basis;
 use crate::yarn::flyaway::Flyaways;
+use crate::yarn::inside::fits_table;
 use std::collections::BTreeMap;
 
 /// What drawing one fabric needs. Pipelines are specialised by it, so that what is left out costs
@@ -30,6 +31,8 @@ pub struct Features {
     pub soft_shadows: bool,
     /// Light is dimmed inside the yarn.
     pub self_shadow: bool,
+    /// And that ply by ply, not by place in the yarn.
+    pub chord_shadow: bool,
     /// Ambient light is dimmed by place inside the yarn, not by distance.
     pub texture_occlusion: bool,
     /// Other yarns hide parts of the sky.
@@ -87,6 +90,7 @@ pub enum SpecializationId {
     YarnOcclusion = 21,
     VertexShading = 22,
     AtVertices = 23,
+    ChordShadow = 24,
 }
 
 impl Features {
@@ -113,6 +117,9 @@ impl Features {
             lobes && (lit || ambient) || lit && shading.specular && !physical && some(fiber.specular());
         let diffuse = diffuse && (lit || ambient);
         let soft = file.light().iter().any(|light| light.shines() && light.angular_size_deg > 0.0);
+        let self_shadow = file.shadow.inside && (lit || ambient && lobes);
+        // A scene that states the table's size gets the table.
+        let by_place = file.quality.self_shadow_texels.is_some();
         let dimmed = ambient || file.debug.view == DebugView::Occlusion;
         Self {
             basis: fabric.strands.basis,
@@ -122,7 +129,8 @@ impl Features {
             yarn_occlusion: ambient && file.occlusion.yarns && file.occlusion.mode != OcclusionMode::None,
             shadow_map: lit && file.shadow.map,
             soft_shadows: lit && file.shadow.map && soft,
-            self_shadow: file.shadow.inside && (lit || ambient && lobes),
+            self_shadow,
+            chord_shadow: self_shadow && !by_place && !fits_table(&fabric.yarn),
             statistics,
             specular,
             diffuse,
@@ -163,7 +171,7 @@ impl Features {
 
     /// Identifier and value of every specialization constant, booleans as 0 and 1, for frames of `samples`
     /// samples a pixel; `at_vertices` for the pipelines that shade there.
-    pub fn specialization(&self, samples: u32, at_vertices: bool) -> [(SpecializationId, u32); 24] {
+    pub fn specialization(&self, samples: u32, at_vertices: bool) -> [(SpecializationId, u32); 25] {
         use SpecializationId as Id;
         [
             (Id::Basis, self.basis as u32),
@@ -190,6 +198,7 @@ impl Features {
             (Id::YarnOcclusion, self.yarn_occlusion.into()),
             (Id::VertexShading, self.vertex_shading.into()),
             (Id::AtVertices, at_vertices.into()),
+            (Id::ChordShadow, self.chord_shadow.into()),
         ]
     }
 
@@ -252,125 +261,5 @@ impl Features {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::light::LightTable;
-
-    fn features(edit: impl FnOnce(&mut SceneFile, &mut Fabric)) -> Features {
-        let mut file = SceneFile::default();
-        let mut fabric = Fabric::for_tests();
-        edit(&mut file, &mut fabric);
-        Features::new(&file, &fabric, false)
-    }
-
-    #[test]
-    fn a_default_scene_leaves_out_only_what_it_lacks() {
-        let out = features(|_, _| {}).left_out();
-        let expected = ["environment", "local_lights", "soft_shadows", "statistics"];
-        assert_eq!(out.keys().copied().collect::<Vec<_>>(), expected);
-    }
-
-    #[test]
-    fn shadows_and_occlusion_are_there_only_where_they_dim_something() {
-        let shadowed = |edit: fn(&mut SceneFile)| {
-            features(|file, _| {
-                (file.shadow.map, file.shadow.inside) = (true, true);
-                edit(file);
-            })
-        };
-        let all = shadowed(|_| {});
-        assert!(all.shadow_map && all.self_shadow && all.distance_occlusion && !all.texture_occlusion);
-        let out = |edit: fn(&mut SceneFile)| {
-            let features = shadowed(edit);
-            (features, features.left_out())
-        };
-        let (bare, why) = out(|file| (file.shadow.map, file.shadow.inside) = (false, false));
-        assert!(!bare.shadow_map && !bare.self_shadow);
-        assert_eq!((why["shadow_map"], why["self_shadow"]), ("shadow.map is false", "shadow.self is false"));
-        assert!(!why.contains_key("soft_shadows"), "what is not there cannot be soft");
-        let sized: fn(&mut SceneFile) = |file| {
-            file.light = Some(vec![LightTable { angular_size_deg: 1.0, ..Default::default() }]);
-        };
-        let (soft, why) = out(sized);
-        assert!(soft.soft_shadows && !why.contains_key("soft_shadows"));
-        let dark = shadowed(|file| {
-            let none = LightTable { angular_size_deg: 1.0, irradiance: Some([0.0; 3]), ..Default::default() };
-            file.light = Some(vec![none]);
-        });
-        assert!(!dark.shadow_map && !dark.soft_shadows && dark.self_shadow, "it dims what passes the yarn");
-        let matte = shadowed(|file| {
-            file.light = Some(Vec::new());
-            file.shading.model = ShadingModel::Simple;
-        });
-        assert!(matte.ambient && !matte.self_shadow, "uniform light has no direction to dim");
-        let (texture, why) = out(|file| file.occlusion.mode = OcclusionMode::Texture);
-        assert!(texture.texture_occlusion && !texture.distance_occlusion && !why.contains_key("occlusion"));
-        let (none, why) = out(|file| file.occlusion.mode = OcclusionMode::None);
-        assert!(!none.texture_occlusion && !none.distance_occlusion);
-        assert_eq!(why["occlusion"], "occlusion.mode is none");
-        let (view, _) = out(|file| file.debug.view = DebugView::Normal);
-        assert!(!view.shadow_map && !view.self_shadow && !view.distance_occlusion);
-    }
-
-    #[test]
-    fn a_yarn_without_loops_and_hairs_has_no_branch_for_them() {
-        let smooth = features(|_, fabric| {
-            fabric.yarn.hair_density_per_mm = 0.0;
-            fabric.yarn.loop_density_per_mm = 0.0;
-        });
-        assert!(!smooth.flyaways && smooth.left_out().contains_key("flyaways"));
-    }
-
-    #[test]
-    fn what_a_scene_lacks_is_left_out_with_its_reason() {
-        let no_ambient = features(|file, _| file.ambient.radiance = Some([0.0; 3]));
-        assert!(!no_ambient.ambient && !no_ambient.distance_occlusion);
-        assert_eq!(no_ambient.left_out()["occlusion"], "no ambient light to dim");
-        let no_light = features(|file, _| file.light = Some(Vec::new()));
-        assert!(
-            no_light.light_count == 0 && no_light.specular && no_light.ambient,
-            "lobes gather ambient light"
-        );
-        let dark = features(|file, _| {
-            file.light = Some(Vec::new());
-            file.ambient.radiance = Some([0.0; 3]);
-        });
-        assert!(!dark.specular && !dark.diffuse && !dark.physical);
-        let lit = |lights: &str| {
-            features(|file, _| file.light = toml::from_str::<SceneFile>(lights).unwrap().light)
-        };
-        let point = "kind = 'point', position_mm = [0, 0, 9]";
-        let two = lit(&format!("light = [{{}}, {{{point}, intensity = [0, 0, 0]}}, {{}}]"));
-        assert!(two.light_count == 2 && !two.local_lights && two.left_out().contains_key("local_lights"));
-        let local = lit(&format!("light = [{{irradiance = [0, 0, 0]}}, {{{point}}}]"));
-        assert!(local.light_count == 1 && local.local_lights);
-        let sky = features(|file, _| file.ambient.environment = Some("sky.exr".into()));
-        assert!(sky.environment && sky.ambient && sky.distance_occlusion);
-        let matte = features(|file, fabric| {
-            file.shading.model = ShadingModel::Simple;
-            fabric.fiber.specular = Some([0.0; 3]);
-        });
-        assert!(!matte.specular && !matte.physical && matte.light_count == 1);
-        let simple = features(|file, _| file.shading.model = ShadingModel::Simple);
-        assert!(simple.specular && simple.left_out().contains_key("scattering_tables"));
-        let glossy = features(|file, _| file.shading.diffuse = false);
-        assert!(!glossy.diffuse && glossy.physical && glossy.ambient);
-        let diffuse = features(|file, _| file.shading.specular = false);
-        assert!(diffuse.diffuse && !diffuse.specular && !diffuse.physical && diffuse.ambient);
-        let only_simple = features(|file, _| {
-            file.shading.model = ShadingModel::Simple;
-            file.shading.diffuse = false;
-        });
-        assert!(only_simple.specular && !only_simple.ambient, "the simple lobe has no integral");
-        assert!(!features(|file, _| file.shading.ambient = false).ambient);
-        let every = features(|file, _| file.debug.fibers = FibersShown::Every);
-        assert!(!every.core_fibers && !every.level_of_detail && every.regular_fibers);
-        assert!(every.left_out().contains_key("core_fibers"));
-        let core = features(|file, _| file.debug.fibers = FibersShown::Core);
-        assert!(core.core_fibers && !core.regular_fibers && core.left_out().contains_key("regular_fibers"));
-        let whole = features(|file, _| file.quality.level_of_detail = false);
-        assert!(!whole.level_of_detail && whole.core_fibers);
-        let view = features(|file, _| file.debug.view = DebugView::Normal);
-        assert!(view.light_count == 0 && !view.ambient && view.left_out().contains_key("shading"));
-    }
-}
+#[path = "features_tests.rs"]
+mod tests;

@@ -170,9 +170,12 @@ fn cross_sections() -> Vec<Case> {
     for plies in [1, 2, 5, 8] {
         all.push(case(&format!("{plies} plies"), "1 to 8", &format!("ply_count = {plies}"), curve(), true));
     }
-    for (short, long) in [(0.01, 1.0), (1.0, 0.01), (0.3, 0.3), (1e-6, 1e-6)] {
-        let yarn = format!("ellipse_short_mm = {short}\nellipse_long_mm = {long}");
-        all.push(case(&format!("ellipses {short} to {long}"), "up to 100:1", &yarn, curve(), true));
+    let shapes =
+        [(0.01, 1.0, 0.78), (1.0, 0.01, 0.78), (1.2e-3, 1.0, 0.78), (0.3, 0.3, 0.78), (1e-6, 1e-6, 1e-6)];
+    for (short, long, radius) in shapes {
+        let yarn = format!("ellipse_short_mm = {short}\nellipse_long_mm = {long}\nyarn_radius_mm = {radius}");
+        let domain = "a thousandth of the yarn and up";
+        all.push(case(&format!("ellipses {short} to {long}"), domain, &yarn, curve(), true));
     }
     all.push(case("no migration", "rate 0", "migration_rate = 0", curve(), true));
     all.push(case("fast migration", "rate 100", "migration_rate = 100", curve(), true));

@@ -41,7 +41,7 @@ pub fn rows(device: &Arc<Device>) -> Result<Vec<Row>, Error> {
         asked.iter().map(|(widths, _)| parse(function, &query(*widths).to_string())).collect();
     let numbers = numbers.map_err(Error::Failed)?;
     let slices: Vec<&[f64]> = numbers.iter().map(Vec::as_slice).collect();
-    let found = kernel.answers(&slices)?;
+    let found = kernel.numbers(&slices)?;
     let mut c = Collector::default();
     for ((slice, found), (widths, stated)) in slices.iter().zip(&found).zip(&asked) {
         let at = || query(*widths).to_string();

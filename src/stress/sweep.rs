@@ -84,7 +84,7 @@ impl Tried {
         let slices: Vec<&[f64]> = numbers.iter().map(Vec::as_slice).collect();
         let mut found = Vec::with_capacity(slices.len());
         for batch in slices.chunks(BATCH) {
-            found.extend(self.kernel.answers(batch)?);
+            found.extend(self.kernel.numbers(batch)?);
         }
         let exact: Vec<Vec<f64>> =
             slices.par_iter().map(|query| (self.function.exact)(Values::new(query))).collect();

@@ -3,6 +3,8 @@
 
 use super::verdict::{Collector, Row};
 use crate::error::Error;
+use crate::precompute::chord_shadow::{CHORD_LIMIT, Plies};
+use crate::precompute::occlusion_size::occlusion_across;
 use crate::precompute::occlusion_table::{
     OCCLUSION_ACROSS, OCCLUSION_LIMIT, bake_occlusion_table, exact_occlusion, occlusion_place,
     texture_occlusion,
@@ -17,54 +19,24 @@ use crate::precompute::table_error::{TableError, places};
 use crate::probe::{Function, Kernel, find, parse};
 use crate::vulkan::Device;
 use crate::yarn::density::extinction_per_mm;
-use crate::yarn::params::YarnParams;
+use crate::yarn::inside::fits_table;
+use crate::yarn::params::{MOST_THIN, YarnParams};
 use crate::yarn::presets;
 use glam::DVec2;
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use std::f64::consts::PI;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 const GROUP: &str = "tables";
-/// Texels of a table of the default size over half of a ply's short axis, across the yarn and around it, that what
-/// [`SELF_SHADOW_LIMIT`] and [`OCCLUSION_LIMIT`] promise needs; every preset has 27 and more.
-pub const LEAST_TEXELS_IN_PLY: f64 = 20.0;
-/// Least exponent of a density that falls off toward the rim, as all presets' do; and how much larger the largest error
-/// is beside the step that a smaller one ends in.
-const LEAST_FALLOFF: f64 = 0.1;
-const STEP: f64 = 1.5;
-/// Extinctions per mm and density.
-const EXTINCTIONS: [f64; 7] = [0.0, 1e-3, 0.1, 1.0, 10.0, 100.0, 1e3];
+/// The largest extinction per mm and density that a query may ask for, and some up to it.
+const MOST_EXTINCTION: f64 = 1e3;
+const EXTINCTIONS: [f64; 7] = [0.0, 1e-3, 0.1, 1.0, 10.0, 100.0, MOST_EXTINCTION];
 /// Entries of scattering tables that a scene may ask for.
 const SCATTERING_SIZES: [u32; 3] = [4, 128, 1024];
 
 /// A yarn with its name.
 type Named = (String, YarnParams);
-
-/// Texels of a default self-shadow table over half of a ply's short axis: across the yarn, or from slice to slice where
-/// those are farther apart.
-fn texels_in_ply(yarn: &YarnParams) -> f64 {
-    let size = SelfShadowSize::default();
-    let short = yarn.ellipse_short_mm.min(yarn.ellipse_long_mm);
-    let across = 2.0 * yarn.outer_radius_mm() / f64::from(size.across - 1);
-    let around = yarn.ply_offset_mm() * PI / f64::from(yarn.ply_count * (size.slices - 1));
-    short / across.max(around)
-}
-
-/// What a yarn's tables keep within: what is promised, or where its plies are thinner than that needs, so much less as
-/// they are thinner; the largest errors, beside the outlines of plies, faster.
-fn limits(yarn: &YarnParams) -> (TableError, f64) {
-    let coarse = (LEAST_TEXELS_IN_PLY / texels_in_ply(yarn)).max(1.0);
-    let TableError { rms, p99, worst } = SELF_SHADOW_LIMIT;
-    // A density that does not fall off ends in a step.
-    let worst = if yarn.density_beta < LEAST_FALLOFF { STEP * worst } else { worst };
-    let depth = TableError {
-        rms: (rms * coarse).min(1.0),
-        p99: (p99 * coarse.powi(2)).min(1.0),
-        worst: (worst * coarse.powi(2)).min(1.0),
-    };
-    (depth, (OCCLUSION_LIMIT * coarse).min(1.0))
-}
 
 /// Yarns of all counts and shapes.
 fn yarns() -> Vec<Named> {
@@ -94,6 +66,12 @@ fn yarns() -> Vec<Named> {
                 [y.density_beta, y.density_epsilon] = density
             }));
         }
+        for thin in [30.0, 900.0] {
+            let side = 0.3 * yarn.yarn_radius_mm;
+            all.push(with(&format!("{thin} times thinner than the yarn"), &|y| {
+                (y.ply_count, y.ellipse_short_mm, y.ellipse_long_mm) = (2, 2.0 * side / thin, side)
+            }));
+        }
         all.push(with("plies on the axis", &|y| y.yarn_radius_mm = 0.0));
         all.push(with("plies far apart", &|y| y.yarn_radius_mm *= 20.0));
     }
@@ -111,19 +89,20 @@ pub fn rows(device: &Arc<Device>, quick: bool) -> Result<Vec<Row>, Error> {
     let mut occlusion = OnDevice::new(device, "ambient_occlusion")?;
     let mut rows = Vec::new();
     for (name, yarn) in yarns.iter().step_by(stride) {
-        let (depth, light) = limits(yarn);
-        rows.push(shadow.depths(name, yarn, count, &depth)?);
-        rows.push(occlusion.visibilities(name, yarn, extinction_per_mm(yarn), count / 4, light)?);
+        rows.push(shadow.depths(name, yarn, count)?);
+        let extinction = extinction_per_mm(yarn).min(MOST_EXTINCTION);
+        rows.push(occlusion.visibilities(name, yarn, extinction, count / 4)?);
     }
     if let Some((name, yarn)) = yarns.first() {
         for extinction in EXTINCTIONS.into_iter().step_by(stride) {
             let name = format!("{name}, extinction {extinction:.0e} per mm");
-            // In denser yarns light ends within a texel, the sharper the denser.
-            let dense = (extinction / (2.0 * extinction_per_mm(yarn))).max(1.0);
-            let limit = (OCCLUSION_LIMIT * dense).min(1.0);
-            rows.push(occlusion.visibilities(&name, yarn, extinction, count / 4, limit)?);
+            rows.push(occlusion.visibilities(&name, yarn, extinction, count / 4)?);
         }
+        rows.push(too_thin(yarn, &shadow, &occlusion));
         rows.extend(sizes(yarn, quick));
+        rows.extend(
+            yarns.iter().take(presets::yarn_names().count()).step_by(stride).map(|yarn| drawn(yarn, count)),
+        );
     }
     rows.extend(SCATTERING_SIZES.map(|entries| scattering_size(entries, quick)));
     Ok(rows)
@@ -141,12 +120,14 @@ impl OnDevice {
         Ok(Self { function, kernel: Kernel::new(device, function)? })
     }
 
-    fn found(&mut self, queries: &[Value]) -> Result<Vec<f64>, Error> {
+    /// The device's numbers, or why there is no table that is good enough.
+    fn found(&mut self, queries: &[Value]) -> Result<Result<Vec<f64>, String>, Error> {
         let numbers: Result<Vec<Vec<f64>>, String> =
             queries.iter().map(|query| parse(self.function, &query.to_string())).collect();
         let numbers = numbers.map_err(Error::Failed)?;
         let slices: Vec<&[f64]> = numbers.iter().map(Vec::as_slice).collect();
-        Ok(self.kernel.answers(&slices)?.concat())
+        let answers: Result<Vec<Vec<f64>>, String> = self.kernel.answers(&slices)?.into_iter().collect();
+        Ok(answers.map(|numbers| numbers.concat()))
     }
 
     fn exact(&self, queries: &[Value]) -> Result<Vec<f64>, Error> {
@@ -161,37 +142,97 @@ impl OnDevice {
     }
 
     /// Optical depths all over the cross-section, as shares of the largest.
-    fn depths(
-        &mut self,
-        name: &str,
-        yarn: &YarnParams,
-        count: u32,
-        limit: &TableError,
-    ) -> Result<Row, Error> {
-        let radius = yarn.outer_radius_mm();
-        let query = |(place, toward): (DVec2, DVec2)| json!({"yarn": section(yarn), "position": (place * radius).to_array(), "light_angle": toward.to_angle()});
-        let queries: Vec<Value> = places(count).map(query).collect();
-        let (found, exact) = (self.found(&queries)?, self.exact(&queries)?);
+    fn depths(&mut self, name: &str, yarn: &YarnParams, count: u32) -> Result<Row, Error> {
+        let query = |(place, toward): (DVec2, DVec2)| json!({"yarn": section(yarn), "position": place.to_array(), "light_angle": toward.to_angle()});
+        let queries: Vec<Value> = inside(yarn, count).map(query).collect();
+        let exact = self.exact(&queries)?;
         let range = exact.iter().copied().fold(0.0, f64::max);
-        Ok(table_row("self_shadow_depth", name, &queries, &found, &exact, range, limit))
+        let (limit, promise) = if fits_table(&without_migration(yarn)) {
+            (SELF_SHADOW_LIMIT, "by place, as the table promises")
+        } else {
+            (CHORD_LIMIT, "ply by ply, as the table promises")
+        };
+        let found = self.found(&queries)?.map_err(Error::Failed)?;
+        Ok(table_row("self_shadow_depth", (name, promise), &queries, (&found, &exact), range, &limit))
     }
 
-    /// Shares of light all over the cross-section.
+    /// Shares of light all over the cross-section; where no table shows them well enough, that it is refused.
     fn visibilities(
         &mut self,
         name: &str,
         yarn: &YarnParams,
         extinction: f64,
         count: u32,
-        limit: f64,
     ) -> Result<Row, Error> {
-        let radius = yarn.outer_radius_mm() * (1.0 - 1e-6);
-        let query = |(place, _): (DVec2, DVec2)| json!({"yarn": section(yarn), "position": (place * radius).to_array(), "extinction": extinction});
-        let queries: Vec<Value> = places(count).map(query).collect();
-        let (found, exact) = (self.found(&queries)?, self.exact(&queries)?);
-        let limit = TableError { rms: limit, p99: limit, worst: limit };
-        Ok(table_row("ambient_occlusion", name, &queries, &found, &exact, 1.0, &limit))
+        let query = |(place, _): (DVec2, DVec2)| json!({"yarn": section(yarn), "position": (place * (1.0 - 1e-6)).to_array(), "extinction": extinction});
+        let queries: Vec<Value> = inside(yarn, count).map(query).collect();
+        let limit = TableError { rms: OCCLUSION_LIMIT, p99: OCCLUSION_LIMIT, worst: OCCLUSION_LIMIT };
+        let what = "ambient_occlusion";
+        Ok(match self.found(&queries)? {
+            Ok(found) => {
+                let exact = self.exact(&queries)?;
+                let name = (name, "as the table promises");
+                table_row(what, name, &queries, (&found, &exact), 1.0, &limit)
+            }
+            Err(why) => {
+                let mut c = Collector::default();
+                c.points(queries.len() as u64);
+                c.refusal(Some(&why), "extinction", || queries[0].to_string());
+                // A table that would do must not be refused.
+                let left = occlusion_across(&without_migration(yarn), extinction).err();
+                let beyond = left.is_some_and(|left| left > 0.5 * OCCLUSION_LIMIT);
+                c.demand(beyond, || format!("refused with an error of {left:?}"));
+                c.row(GROUP, what, name, "no table is good enough: refused")
+            }
+        })
     }
+}
+
+/// Places of a yarn's outer circle in mm, every other one in a ply, with directions toward light.
+fn inside(yarn: &YarnParams, count: u32) -> impl Iterator<Item = (DVec2, DVec2)> {
+    let (radius, plies) = (yarn.outer_radius_mm(), Plies::new(yarn));
+    (0..count).zip(places(count)).map(move |(index, (place, light))| {
+        let turn = DVec2::from_angle(TAU * f64::from(index / 2 % plies.count) / f64::from(plies.count));
+        let in_ply = turn.rotate(DVec2::new(plies.offset, 0.0) + plies.axes * place);
+        (radius * if index % 2 == 0 { place } else { in_ply }, light)
+    })
+}
+
+/// The yarn as a query knows it.
+fn without_migration(yarn: &YarnParams) -> YarnParams {
+    YarnParams { migration_min: 1.0, migration_max: 1.0, ..yarn.clone() }
+}
+
+/// Plies thinner than f32 has place for, in queries and in a scene's yarn.
+fn too_thin(yarn: &YarnParams, shadow: &OnDevice, occlusion: &OnDevice) -> Row {
+    let mut c = Collector::default();
+    let least = yarn.outer_radius_mm() / MOST_THIN;
+    for (thin, key) in [(0.7, "ellipse_short"), (1e-3, "ellipse_short"), (0.9, "ellipse_long")] {
+        let mut yarn = yarn.clone();
+        let axis =
+            if key == "ellipse_short" { &mut yarn.ellipse_short_mm } else { &mut yarn.ellipse_long_mm };
+        *axis = thin * least;
+        let query = json!({"yarn": section(&yarn), "position": [0, 0], "light_angle": 0, "extinction": 1});
+        let of_query = |side: &OnDevice| parse(side.function, &query.to_string()).err();
+        let of_yarn = yarn.validate().err().map(|error| error.to_string());
+        for why in [of_query(shadow), of_query(occlusion), of_yarn] {
+            c.points(1);
+            c.refusal(why.as_deref(), key, || query.to_string());
+        }
+    }
+    c.row(GROUP, "plies too thin", "both half-axes", "1/1000 of the yarn's outer radius and up")
+}
+
+/// A preset's table of self-shadows as pictures read it, fibers migrating, which queries do not know.
+fn drawn((name, yarn): &Named, count: u32) -> Row {
+    let (table, section) = (bake_self_shadow(yarn, SelfShadowSize::default()), CrossSection::new(yarn));
+    let read = |(place, toward): (DVec2, DVec2)| {
+        let at = self_shadow_place(place, toward, yarn.ply_count, table.size);
+        (self_shadow_depth(&table, at), exact_self_shadow_depth(&section, place, toward))
+    };
+    let all: Vec<(f64, f64)> = places(count).collect::<Vec<_>>().into_par_iter().map(read).collect();
+    let swept = format!("{name} as drawn");
+    pairs_row("self_shadow_depth", (&swept, "by place, with migration; read in f64"), &all, SELF_SHADOW_LIMIT)
 }
 
 fn section(yarn: &YarnParams) -> Value {
@@ -201,10 +242,9 @@ fn section(yarn: &YarnParams) -> Value {
 
 fn table_row(
     what: &str,
-    name: &str,
+    (name, promise): (&str, &str),
     queries: &[Value],
-    found: &[f64],
-    exact: &[f64],
+    (found, exact): (&[f64], &[f64]),
     range: f64,
     limit: &TableError,
 ) -> Row {
@@ -215,10 +255,6 @@ fn table_row(
         c.error((found - exact).abs() / range, limit.worst, || query.to_string());
     }
     judge_table(&mut c, found, exact, range, limit);
-    let promised =
-        limit.rms <= if what == "self_shadow_depth" { SELF_SHADOW_LIMIT.rms } else { OCCLUSION_LIMIT };
-    let promise =
-        if promised { "as tables promise" } else { "plies too thin, or too dense, for the tables' promise" };
     c.row(GROUP, what, name, promise)
 }
 
@@ -281,6 +317,11 @@ fn sizes(yarn: &YarnParams, quick: bool) -> Vec<Row> {
 }
 
 fn size_row(what: &str, across: u32, pairs: &[(f64, f64)], limit: TableError) -> Row {
+    let swept = format!("{across} texels");
+    pairs_row(what, (&swept, "8 to 512, or 1024 for occlusion; read in f64"), pairs, limit)
+}
+
+fn pairs_row(what: &str, (swept, domain): (&str, &str), pairs: &[(f64, f64)], limit: TableError) -> Row {
     let (found, exact): (Vec<f64>, Vec<f64>) = pairs.iter().copied().unzip();
     let range = exact.iter().copied().fold(0.0, f64::max);
     let mut c = Collector::default();
@@ -290,7 +331,7 @@ fn size_row(what: &str, across: u32, pairs: &[(f64, f64)], limit: TableError) ->
         c.error((found - exact).abs() / range, limit.worst, || format!("place {index}"));
     }
     judge_table(&mut c, &found, &exact, range, &limit);
-    c.row(GROUP, what, &format!("{across} texels"), "8 to 512, or 1024 for occlusion; read in f64")
+    c.row(GROUP, what, swept, domain)
 }
 
 /// Tables of scattering with this many entries, between them, for lobes from the narrowest to the widest.

@@ -37,7 +37,7 @@ impl MigratedDensity {
         let node = |i: usize| 0.5 - 0.5 * (PI * i as f64 / STEPS as f64).cos();
         let inner = (0..=STEPS).map(|i| middle * node(i));
         let outer = (0..=STEPS).map(|i| middle + (1.0 - middle) * node(i));
-        let densities = inner.chain(outer).map(|radius| exact(yarn, radius)).collect();
+        let densities = inner.chain(outer).map(|radius| migrated_density(yarn, radius)).collect();
         Self { middle, densities, yarn: yarn.clone() }
     }
 
@@ -48,7 +48,7 @@ impl MigratedDensity {
             return 0.0;
         }
         if self.densities.is_empty() {
-            return exact(&self.yarn, radius);
+            return migrated_density(&self.yarn, radius);
         }
         let outside = radius > self.middle;
         let (from, to) = if outside { (self.middle, 1.0) } else { (0.0, self.middle) };
@@ -66,9 +66,10 @@ impl MigratedDensity {
     }
 }
 
-/// The mean over migration itself. A fiber at phase x is at R_i m(x), m = (R_max + R_min)/2 + (R_max - R_min)/2 cos x;
+/// The density that [`MigratedDensity`] tabulates, at `radius` in [0, 1] of the ply's ellipse: the mean over migration
+/// itself. A fiber at phase x is at R_i m(x), m = (R_max + R_min)/2 + (R_max - R_min)/2 cos x;
 /// all of them at x alone would be as dense as p(radius / m) / m^2.
-fn exact(yarn: &YarnParams, radius: f64) -> f64 {
+pub fn migrated_density(yarn: &YarnParams, radius: f64) -> f64 {
     let middle = 0.5 * (yarn.migration_max + yarn.migration_min);
     let amplitude = 0.5 * (yarn.migration_max - yarn.migration_min);
     let share = |phase: f64| (middle + amplitude * phase.cos()).max(LEAST_MIGRATION);

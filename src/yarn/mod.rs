@@ -8,6 +8,7 @@ pub mod detail;
 pub mod fetch;
 pub mod fiber;
 pub mod flyaway;
+pub mod inside;
 pub mod level;
 pub mod migrated_density;
 pub mod migration;

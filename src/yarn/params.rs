@@ -8,6 +8,10 @@ use toml::Table;
 /// Most fibers in all plies of a yarn.
 pub const MAX_FIBERS: u32 = 16_000;
 
+/// Most times that a yarn's outer radius may be the shorter half-axis of its plies: f32 has no place for thinner ones in
+/// the yarn's cross-section.
+pub const MOST_THIN: f64 = 1000.0;
+
 /// A normal distribution; `[mean, deviation]` in files.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(from = "[f64; 2]", into = "[f64; 2]")]
@@ -110,6 +114,12 @@ impl YarnParams {
         (self.ellipse_short_mm * self.ellipse_long_mm).sqrt()
     }
 
+    /// The shorter half-axis of a ply: its key, and the axis in mm.
+    pub fn thinnest(&self) -> (&'static str, f64) {
+        let (short, long) = (self.ellipse_short_mm, self.ellipse_long_mm);
+        if long < short { ("ellipse_long_mm", long) } else { ("ellipse_short_mm", short) }
+    }
+
     /// Radius of one fiber in mm.
     pub fn fiber_radius_mm(&self) -> f64 {
         0.5e-3 * self.fiber_diameter_um
@@ -163,6 +173,11 @@ impl YarnParams {
         if self.migration_max < self.migration_min {
             let rule = format!("allowed is at least migration_min = {}", self.migration_min);
             return wrong("migration_max", self.migration_max.to_string(), rule);
+        }
+        let ((key, thinnest), outer) = (self.thinnest(), self.outer_radius_mm());
+        if thinnest * MOST_THIN < outer {
+            let rule = format!("allowed is at least 1/{MOST_THIN} of the yarn's outer radius, {outer} mm");
+            return wrong(key, thinnest.to_string(), rule);
         }
         let Spread { mean, deviation } = self.hair_length_mm;
         if self.hair_density_per_mm > 0.0 && mean + deviation <= 0.0 {
@@ -230,6 +245,14 @@ mod tests {
         let bad = YarnParams { migration_min: 0.9, migration_max: 0.8, ..good.clone() };
         let says = bad.validate().unwrap_err().to_string();
         assert_eq!(says, "yarn.migration_max = 0.8: allowed is at least migration_min = 0.9");
+        let bad = YarnParams { ellipse_long_mm: 7e-4, ..good.clone() };
+        let says = bad.validate().unwrap_err().to_string();
+        let expected =
+            "yarn.ellipse_long_mm = 0.0007: allowed is at least 1/1000 of the yarn's outer radius, 0.79 mm";
+        assert_eq!(says, expected);
+        let far = YarnParams { yarn_radius_mm: 1e3, ..good.clone() };
+        assert_eq!(far.validate().unwrap_err().key, "ellipse_short_mm");
+        assert_eq!(YarnParams { ellipse_long_mm: 8e-4, ..good.clone() }.validate(), Ok(()));
         let bad = YarnParams { hair_length_mm: Spread { mean: -1.0, deviation: 1.0 }, ..good };
         assert_eq!(bad.validate().unwrap_err().key, "hair_length_mm");
         assert_eq!(YarnParams { hair_density_per_mm: 0.0, ..bad }.validate(), Ok(()));

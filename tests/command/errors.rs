@@ -63,6 +63,11 @@ fn hostile_files() -> Vec<(&'static str, Vec<u8>, &'static str)> {
             b"[fabric]\nmodel = 'good.bcc'\n[camera]\nfov_y_deg = 0\n".to_vec(),
             "camera.fov_y_deg = 0",
         ),
+        (
+            "thin.toml",
+            b"[fabric]\nmodel = 'good.bcc'\n[yarn]\nellipse_short_mm = 1e-4\n".to_vec(),
+            "line 4: yarn.ellipse_short_mm = 0.0001: allowed is at least 1/1000 of the yarn's outer radius",
+        ),
         ("nothing.toml", Vec::new(), "expected a [fabric]"),
         ("bytes.toml", b"\xff\xfe".to_vec(), "UTF-8"),
     ]
@@ -100,6 +105,21 @@ fn files_that_are_not_there_and_folders_are_refused() {
         place.refuses(&["info", name], 2, &[name]);
     }
     place.refuses(&["render", "away.toml", "-o", "x.png"], 2, &["away.bcc", "cannot read"]);
+}
+
+/// Where no texture of ambient light is good enough, unless the scene says how large it is or does without.
+#[test]
+fn plies_that_no_texture_shows_are_refused() {
+    let place = Workplace::new();
+    place.write("good.bcc", good_bcc());
+    let render =
+        ["render", "good.bcc", "-o", "x.png", "--size", "16x16", "--set", "yarn.ellipse_short_mm=0.005"];
+    let textured = [&render[..], &["--set", "occlusion.mode=texture"]].concat();
+    place.refuses(&textured, 2, &["good.bcc: occlusion.mode = texture: expected plies that a texture shows"]);
+    for drawn in [render.to_vec(), [&textured[..], &["--set", "quality.occlusion_texels=64"]].concat()] {
+        let output = place.run(&drawn);
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    }
 }
 
 #[test]

@@ -46,7 +46,7 @@ fn the_same_command_writes_the_same_bytes_and_another_seed_others() {
 }
 
 /// Every key of the statistics, and whether its value must be above 0.
-const KEYS: [(&str, bool); 21] = [
+const KEYS: [(&str, bool); 22] = [
     ("device", false),
     ("driver", false),
     ("size", false),
@@ -58,6 +58,7 @@ const KEYS: [(&str, bool); 21] = [
     ("triangles", true),
     ("patches_drawn", true),
     ("patches_culled", true),
+    ("patches_coarse", false),
     ("frame_ms", false),
     ("passes", false),
     ("timing_method", false),

@@ -11,7 +11,7 @@ use worsted::reference::checkpoint;
 use worsted::reference::rendering::Rendering;
 use worsted::stress::queries;
 
-use crate::readers::{PART_KEY, PART_SIZE};
+use crate::target::readers::{PART_KEY, PART_SIZE};
 
 /// What goes into `path`'s file, by one of the library's own writers.
 fn written(write: impl FnOnce(&Path)) -> Vec<u8> {

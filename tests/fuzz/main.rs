@@ -8,12 +8,14 @@
 mod allocator;
 mod corpus;
 mod mutate;
-#[path = "../../tools/fuzz/readers.rs"]
-mod readers;
+#[expect(clippy::panic, reason = "what a fuzzer must see of a reader that broke its word")]
+#[path = "../../tools/fuzz/target.rs"]
+mod target;
+mod targets;
 
-use readers::{READERS, Read, Scratch};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
+use target::readers::{READERS, Read, Scratch};
 use worsted::bench::clock::cpu_seconds;
 
 /// Spoiled files of each reader in a usual run.

@@ -11,6 +11,7 @@ const EXEMPT: &[(&str, &str)] = &[
     ("fetch_fiber_at", "reads the fabric's buffers: tests/fiber_positions.rs"),
     ("fetch_fiber_vertex", "reads the fabric's buffers; its parts are strand_vertex and fiber_point"),
     ("self_shadow_depth", "reads a texture: table_reads.rs"),
+    ("chord_depth", "reads a texture: table_reads.rs"),
     ("texture_occlusion", "reads a texture: table_reads.rs"),
     ("mark", "private to strand_vertex, which gives all that it sets"),
     ("tip_vertex", "private to strand_vertex, which gives all that it sets where it meets a tip"),

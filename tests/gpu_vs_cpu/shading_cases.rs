@@ -5,6 +5,7 @@ use crate::harness::{Args, Case, Row, number, vector};
 use crate::inputs::{Random, random_rows, row};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
+use worsted::precompute::chord_shadow;
 use worsted::precompute::occlusion_fit;
 use worsted::precompute::occlusion_table::occlusion_place as occlusion_place_twin;
 use worsted::precompute::self_shadow::{self, SelfShadowSize};
@@ -22,6 +23,7 @@ pub fn cases() -> Vec<Case> {
         self_shadow_place(),
         self_shadow_stretch(),
         self_shadow_light(),
+        ply_chord(),
         occlusion_place(),
         reflected_occlusion(),
         sky_toward(),
@@ -122,6 +124,45 @@ fn self_shadow_light() -> Case {
             share.then_some(()).ok_or_else(|| "not a share of the light".to_owned())
         }),
     }
+}
+
+/// Chords of plies up to a thousand times thinner than the yarn, at places and for light about which all is well
+/// conditioned: a line's distance from a ply's axis is a difference that f32 has to a millionth of the yarn at best.
+fn ply_chord() -> Case {
+    let mut rows = random_rows("ply_chord", |random| {
+        let axes = DVec2::new(random.magnitude(1e-3, 1.0), random.magnitude(1e-3, 1.0));
+        let offset = random.between(0.0, 1.0);
+        let in_ply = random.between(0.0, 0.95) * DVec2::from_angle(random.between(0.0, TAU));
+        chord_row(DVec2::new(offset, 0.0) + in_ply * axes, random.between(0.0, TAU), offset, axes)
+    });
+    // Past the ply, at its tips, on its axis, along both.
+    for axes in [DVec2::new(0.3, 0.4), DVec2::new(1e-3, 1.0), DVec2::new(1.0, 1e-3)] {
+        for position in
+            [DVec2::new(0.5, 0.0), DVec2::new(3.0, 3.0), DVec2::new(-3.0, 0.0), DVec2::new(0.5, 2.0)]
+        {
+            rows.extend([0.0, 0.25, 0.5, 0.75].map(|turns| chord_row(position, TAU * turns, 0.5, axes)));
+        }
+    }
+    let twin = |args: &mut Args<'_>| {
+        let (position, toward) = (take_vec2(args), take_vec2(args));
+        let (offset, axes) = (args.real(), take_vec2(args));
+        vec![vector("chord", chord_shadow::ply_chord(position, toward, offset, axes), FLOOR)]
+    };
+    Case {
+        function: "ply_chord",
+        rows,
+        twin,
+        invariant: Some(|_, found| {
+            let inside = found.iter().all(|v| (0.0..=1.001).contains(v));
+            inside.then_some(()).ok_or_else(|| "outside of the table, or longer than the ply".to_owned())
+        }),
+    }
+}
+
+fn chord_row(position: DVec2, angle: f64, offset: f64, axes: DVec2) -> Row {
+    let toward = DVec2::from_angle(angle);
+    let placed = row().real(position.x).real(position.y).real(toward.x).real(toward.y);
+    placed.real(offset).real(axes.x).real(axes.y).end()
 }
 
 fn occlusion_place() -> Case {

@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 use half::f16;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
+use worsted::precompute::chord_shadow::{CHORD_LIMIT, ChordShadow, Plies, bake_chord_shadow, chord_depth};
 use worsted::precompute::occlusion_table::{
     OCCLUSION_ACROSS, OCCLUSION_LIMIT, bake_occlusion_table, exact_occlusion, occlusion_place,
     texture_occlusion,
@@ -43,7 +44,7 @@ fn read(
         name: function,
         format: vk::Format::R16_SFLOAT,
         extent,
-        volume: function == "self_shadow_depth",
+        volume: function != "texture_occlusion",
         usage: vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::SAMPLED,
         ..Default::default()
     };
@@ -120,6 +121,52 @@ fn the_device_reads_occlusion_close_to_the_integral() {
         let twins = coordinates.iter().map(|place| texture_occlusion(&table, *place));
         let filter = TableError::new(&found.into_iter().zip(twins).collect::<Vec<_>>(), 1.0);
         assert!(filter.worst <= FILTER, "{name}: filter {filter:?}");
+    }
+}
+
+/// Light through plies of all kinds that fit no table by place, and through a preset's: the device works out the chords
+/// itself, in f32.
+#[test]
+fn the_device_reads_chords_close_to_the_integral() {
+    let wool = yarn_of(3);
+    let flat =
+        |short: f64, long: f64| YarnParams { ellipse_short_mm: short, ellipse_long_mm: long, ..wool.clone() };
+    let step = YarnParams { migration_min: 1.0, density_beta: 0.0, ..flat(0.0042, 4.0) };
+    let yarns = [wool.clone(), flat(4.0, 0.04), flat(0.04, 4.0), step, yarn_of(1), yarn_of(8)];
+    for yarn in yarns {
+        let (table, plies) = (bake_chord_shadow(&yarn), Plies::new(&yarn));
+        let section = CrossSection::new(&yarn);
+        let points: Vec<(DVec2, DVec2)> = (0..20_000)
+            .zip(places(20_000))
+            .map(|(index, (place, light))| {
+                let turn = DVec2::from_angle(TAU * f64::from(index) / f64::from(plies.count));
+                let in_ply = turn.rotate(DVec2::new(plies.offset, 0.0) + plies.axes * place);
+                (if index % 2 == 0 { place } else { in_ply }, light)
+            })
+            .collect();
+        let rows: Vec<_> = points
+            .iter()
+            .map(|(at, light)| {
+                let placed = row().real(at.x).real(at.y).real(light.x).real(light.y).bits(plies.count);
+                let axes = placed.real(plies.offset).real(plies.axes.x).real(plies.axes.y);
+                axes.real(plies.turn.x).real(plies.turn.y).end()
+            })
+            .collect();
+        let found = read("chord_depth", ChordShadow::EXTENT, &table.rests, &rows).expect("a table");
+        let exact: Vec<f64> =
+            points.par_iter().map(|(at, light)| exact_self_shadow_depth(&section, *at, *light)).collect();
+        let range = exact.iter().copied().fold(0.0, f64::max);
+        let error = |off: f64| {
+            let pairs: Vec<_> = found.iter().copied().zip(exact.iter().map(|e| off * e)).collect();
+            TableError::new(&pairs, range)
+        };
+        println!("{} plies {}: {:?}", plies.count, plies.axes, error(1.0));
+        assert!(error(1.0).within(&CHORD_LIMIT), "{plies:?}: {:?}", error(1.0));
+        assert!(!error(1.05).within(&CHORD_LIMIT), "{plies:?}: what is 5% off passes");
+        let twins: Vec<_> =
+            points.iter().map(|(at, light)| chord_depth(&table, *at, *light, &plies)).collect();
+        let filter = TableError::new(&found.iter().copied().zip(twins).collect::<Vec<_>>(), range);
+        assert!(filter.rms <= 0.5 * CHORD_LIMIT.rms, "{plies:?}: filter {filter:?}");
     }
 }
 

@@ -26,6 +26,7 @@ pub fn everything() -> Features {
         shadow_map: true,
         soft_shadows: true,
         self_shadow: true,
+        chord_shadow: true,
         texture_occlusion: true,
         yarn_occlusion: true,
         ambient: true,

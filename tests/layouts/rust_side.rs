@@ -109,6 +109,8 @@ pub fn layouts() -> Vec<Layout> {
             scattering_entries,
             first_piece,
             shadow_radius,
+            ply_cos,
+            ply_sin,
             padding,
             occlusion,
             occlusion_lean,
@@ -149,6 +151,12 @@ pub fn layouts() -> Vec<Layout> {
             padding_1,
             padding_2
         }),
-        layout!(Statistics { patches_drawn, patches_culled, fiber_segments_low, fiber_segments_high }),
+        layout!(Statistics {
+            patches_drawn,
+            patches_culled,
+            fiber_segments_low,
+            fiber_segments_high,
+            patches_coarse
+        }),
     ]
 }

@@ -35,13 +35,14 @@ fn every_embedded_shader_is_valid() {
 
 /// Everything, nothing, and everything but one thing.
 fn variants() -> Vec<Features> {
-    let edits: [fn(&mut Features); 17] = [
+    let edits: [fn(&mut Features); 18] = [
         |_| (),
         |f| f.statistics = false,
         |f| f.light_count = 0,
         |f| f.shadow_map = false,
         |f| f.soft_shadows = false,
-        |f| f.self_shadow = false,
+        |f| (f.self_shadow, f.chord_shadow) = (false, false),
+        |f| f.chord_shadow = false,
         |f| (f.texture_occlusion, f.distance_occlusion) = (false, false),
         |f| f.yarn_occlusion = false,
         |f| f.ambient = false,
@@ -60,6 +61,7 @@ fn variants() -> Vec<Features> {
                 shadow_map: false,
                 soft_shadows: false,
                 self_shadow: false,
+                chord_shadow: false,
                 texture_occlusion: false,
                 distance_occlusion: false,
                 yarn_occlusion: false,

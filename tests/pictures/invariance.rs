@@ -118,6 +118,24 @@ fn culling_drops_only_what_is_not_seen() {
 }
 
 #[test]
+fn pieces_that_are_cut_too_coarsely_are_counted() {
+    let counted = |most: &str, tolerance: &str, core: &str| {
+        let sets = [most, tolerance, core, "camera.distance_mm=7", "yarn.fibers_per_ply=40"];
+        let (_, stats) = draw_counted(scene(&swatch(), &sets), SMALL, 1, true);
+        (stats.patches_coarse.unwrap(), stats.patches_drawn.unwrap())
+    };
+    let every = "debug.fibers=every";
+    let (coarse, drawn) =
+        counted("quality.max_subdivisions=1", "quality.subdivision_tolerance_px=0.1", every);
+    assert!(coarse == drawn && drawn > 5, "{coarse} of {drawn}: one piece is too few for all");
+    let (coarse, drawn) = counted("quality.max_subdivisions=64", "quality.subdivision_tolerance_px=1", every);
+    assert!(coarse == 0 && drawn > 5, "{coarse} of {drawn}: 64 are enough for all");
+    let core = "debug.fibers=core";
+    let (coarse, drawn) = counted("quality.max_subdivisions=1", "quality.subdivision_tolerance_px=0.1", core);
+    assert!(coarse > 0 && coarse <= drawn, "{coarse} of {drawn} cores");
+}
+
+#[test]
 fn radiance_is_linear_in_the_light() {
     let lit = |light: &str, ambient: &str| {
         let light = format!("light=[{{irradiance = {light}}}]");

@@ -1,7 +1,7 @@
 //! What every target does: one reader over the fuzzer's bytes, which aborts where the reader breaks its word.
 
 #[path = "readers.rs"]
-mod readers;
+pub mod readers;
 
 use readers::{READERS, Scratch};
 use std::sync::OnceLock;
