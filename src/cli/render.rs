@@ -41,7 +41,7 @@ pub fn run(mut job: RenderJob) -> Result<(), Error> {
 }
 
 fn draw(job: &RenderJob, device: &std::sync::Arc<Device>) -> Result<(Picture, Stats), Error> {
-    let mut renderer = Renderer::new(device, job.scene.clone(), job.request)?;
+    let mut renderer = Renderer::keeping(device, job.scene.clone(), job.request, &job.kept)?;
     let bar = share_bar(&job.common);
     let pictures = f64::from(job.repeat);
     let mut picture = None;
@@ -63,6 +63,14 @@ fn draw(job: &RenderJob, device: &std::sync::Arc<Device>) -> Result<(Picture, St
 fn explain(stats: &Stats) {
     say!("device: {} ({})", stats.device, stats.driver);
     say!("drawn: {} pieces of yarn, {} fiber curves", stats.yarn_segments, stats.fiber_curves);
+    for (what, taken) in &stats.precompute_ms {
+        let cached = if stats.precompute_from_cache.contains(what) { "read from the cache" } else { "baked" };
+        say!("{cached}: {what}, {taken:.1} ms");
+    }
+    let given = stats
+        .pipelines_from_cache_bytes
+        .map_or_else(String::new, |bytes| format!(", the driver given {bytes} bytes of an earlier run"));
+    say!("built: {} pipelines, {:.1} ms{given}", stats.pipelines_built, stats.pipelines_ms);
     for (what, bytes) in &stats.gpu_bytes {
         say!("built: {what}, {bytes} bytes");
     }

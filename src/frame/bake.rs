@@ -1,6 +1,7 @@
 //! What is worked out on the CPU for a fabric before it is uploaded: only what its features ask for.
 
-use super::stats::Stats;
+use super::keeping::Bakery;
+use crate::io::kept::Key;
 use crate::precompute::core_texture::{CoreTexture, bake_core};
 use crate::precompute::occlusion_fit::{OcclusionFit, fit_occlusion};
 use crate::precompute::occlusion_table::{OCCLUSION_ACROSS, OcclusionTable, bake_occlusion_table};
@@ -15,7 +16,6 @@ use crate::yarn::density::extinction_per_mm;
 use crate::yarn::table::Fiber;
 use half::f16;
 use std::cell::LazyCell;
-use std::time::Instant;
 
 /// A fabric's tables; absent where nothing reads them.
 pub struct Bakes {
@@ -36,13 +36,13 @@ pub struct Bakes {
 }
 
 impl Bakes {
-    /// Bakes what `features` need of a fabric with these fibers, and tells `stats` how long each took.
+    /// Bakes what `features` need of a fabric with these fibers.
     pub fn new(
         scene: &Scene,
         fabric: &Fabric,
         features: &Features,
         cross_section: &[Fiber],
-        stats: &mut Stats,
+        bakery: &mut Bakery<'_>,
     ) -> Self {
         let quality = &scene.file.quality;
         let core =
@@ -60,14 +60,26 @@ impl Bakes {
         let shadow = || shadow_radius_mm(&section, extinction_per_mm);
         let hides = features.shadow_map || features.yarn_occlusion;
         let depth = || bake_self_shadow(yarn, size);
+        let of_yarn = |key: Key| key.shown(&(yarn, extinction_per_mm));
+        let of_core = |key: Key| {
+            key.shown(&(yarn, cross_section)).shown(&(quality.core_texture_rows, quality.core_visible_share))
+        };
+        let of_fiber = |key: Key| key.shown(&(fabric.fiber.scattering(), quality.scattering_entries));
         Self {
-            occlusion: by_distance.then(|| timed(stats, "distance_occlusion", distance)),
-            occlusion_texture: features.texture_occlusion.then(|| timed(stats, "occlusion_texture", texture)),
-            self_shadow: features.self_shadow.then(|| timed(stats, "self_shadow", depth)),
-            shadow_radius_mm: if hides { shadow() } else { yarn.outer_radius_mm() },
+            occlusion: by_distance.then(|| bakery.table("distance_occlusion", of_yarn, distance)),
+            occlusion_texture: features
+                .texture_occlusion
+                .then(|| bakery.table("occlusion_texture", |key| of_yarn(key).shown(&texels), texture)),
+            self_shadow: features
+                .self_shadow
+                .then(|| bakery.table("self_shadow", |key| key.shown(&(yarn, size)), depth)),
+            shadow_radius_mm: match hides {
+                true => bakery.table("shadow_radius", of_yarn, shadow),
+                false => yarn.outer_radius_mm(),
+            },
             extinction: extinction_per_mm * yarn.outer_radius_mm(),
-            core: features.core_fibers.then(|| timed(stats, "core_texture", core)),
-            scattering: features.physical.then(|| timed(stats, "scattering_table", scattering)),
+            core: features.core_fibers.then(|| bakery.table("core_texture", of_core, core)),
+            scattering: features.physical.then(|| bakery.table("scattering_table", of_fiber, scattering)),
         }
     }
 }
@@ -77,11 +89,12 @@ pub fn skies(
     scene: &Scene,
     bakes: &[Bakes],
     features: &[Features],
-    stats: &mut Stats,
+    bakery: &mut Bakery<'_>,
 ) -> Option<Vec<Vec<[f16; 4]>>> {
     features.iter().any(|features| features.yarn_occlusion).then(|| {
         let yarns: Vec<SkyYarns<'_>> = scene.fabrics.iter().zip(bakes).map(sky_yarns).collect();
-        timed(stats, "sky", || bake_skies(&yarns))
+        let of_yarns = |key: Key| yarns.iter().fold(key, of_sky_yarns);
+        bakery.table("sky", of_yarns, || bake_skies(&yarns))
     })
 }
 
@@ -93,9 +106,15 @@ fn sky_yarns<'a>((fabric, bakes): (&'a Fabric, &Bakes)) -> SkyYarns<'a> {
     }
 }
 
-fn timed<T>(stats: &mut Stats, name: &str, bake: impl FnOnce() -> T) -> T {
-    let started = Instant::now();
-    let baked = bake();
-    stats.add_precompute(name, started.elapsed());
-    baked
+/// A key with all that decides what one fabric hides and sees of the sky.
+fn of_sky_yarns(key: Key, yarns: &SkyYarns<'_>) -> Key {
+    let strands = yarns.strands;
+    let key = key
+        .shown(&(strands.basis, yarns.hiding_radius_mm, yarns.outer_radius_mm, &strands.closed))
+        .bytes(bytemuck::cast_slice(&strands.points));
+    strands.pieces.iter().fold(key, |key, piece| {
+        let words = [piece.first_point as u64, piece.curve as u64];
+        let lengths = [piece.length_start_mm, piece.length_mm].map(f64::to_bits);
+        key.bytes(bytemuck::cast_slice(&[words, lengths]))
+    })
 }

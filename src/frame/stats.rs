@@ -3,11 +3,12 @@
 use super::{Milliseconds, Request, ms};
 use crate::gpu_types::{RADIANCE_MAX, Statistics};
 pub use crate::math::spread::Spread;
+use crate::passes::pipelines::Building;
 use crate::scene::Scene;
 use crate::scene::features::Features;
 use crate::vulkan::{Device, Taken};
 use serde::Serialize;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -46,6 +47,14 @@ pub struct Stats {
     pub timing_method: Option<&'static str>,
     /// Work done once before the first picture.
     pub precompute_ms: Milliseconds,
+    /// What of that was read from the cache.
+    pub precompute_from_cache: BTreeSet<String>,
+    /// Time that building pipelines took.
+    pub pipelines_ms: f64,
+    /// Pipelines built.
+    pub pipelines_built: u64,
+    /// What the driver was given of an earlier run, in bytes; none where nothing was kept.
+    pub pipelines_from_cache_bytes: Option<u64>,
     /// Device memory by name.
     pub gpu_bytes: BTreeMap<String, u64>,
     /// What the scene does not need, and why.
@@ -83,6 +92,10 @@ impl Stats {
             passes: BTreeMap::new(),
             timing_method: None,
             precompute_ms: BTreeMap::new(),
+            precompute_from_cache: BTreeSet::new(),
+            pipelines_ms: 0.0,
+            pipelines_built: 0,
+            pipelines_from_cache_bytes: None,
             gpu_bytes: BTreeMap::new(),
             left_out: BTreeMap::new(),
             left_out_bytes: BTreeMap::new(),
@@ -93,8 +106,22 @@ impl Stats {
         }
     }
 
-    pub(super) fn add_precompute(&mut self, name: &str, taken: Duration) {
+    /// Takes note of a table; where several fabrics have one, it is from the cache if all are.
+    pub(super) fn add_precompute(&mut self, name: &str, taken: Duration, from_cache: bool) {
+        let first = !self.precompute_ms.contains_key(name);
         *self.precompute_ms.entry(name.to_owned()).or_default() += ms(taken);
+        if !from_cache {
+            self.precompute_from_cache.remove(name);
+        } else if first {
+            self.precompute_from_cache.insert(name.to_owned());
+        }
+    }
+
+    /// Takes note of the pipelines.
+    pub(super) fn set_pipelines(&mut self, building: Building, found_bytes: Option<u64>) {
+        self.pipelines_ms = ms(building.taken);
+        self.pipelines_built = building.count;
+        self.pipelines_from_cache_bytes = found_bytes;
     }
 
     /// Takes note of what a fabric of these features leaves out; `saved` knows the bytes.
@@ -214,6 +241,10 @@ mod tests {
                 passes: BTreeMap::new(),
                 timing_method: None,
                 precompute_ms: BTreeMap::new(),
+                precompute_from_cache: BTreeSet::new(),
+                pipelines_ms: 0.0,
+                pipelines_built: 0,
+                pipelines_from_cache_bytes: None,
                 gpu_bytes: BTreeMap::new(),
                 left_out: BTreeMap::new(),
                 left_out_bytes: BTreeMap::new(),

@@ -11,5 +11,6 @@ pub mod scattering_table;
 pub mod self_shadow;
 pub mod shadow_radius;
 pub mod sky;
+pub mod stored;
 pub mod table;
 pub mod table_error;
