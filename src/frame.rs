@@ -4,6 +4,7 @@ mod bake;
 mod cloth;
 mod keeping;
 pub mod lighting;
+pub mod packing;
 mod plan;
 pub mod sampling;
 mod savings;
@@ -79,6 +80,8 @@ pub struct Renderer {
     /// What the pipelines, the buffers and the shadow map have room for.
     light_room: LightRoom,
     cloth: Cloth,
+    /// Fabric and number of pieces of each part that the fiber pass draws.
+    parts: Vec<(usize, u32)>,
     shadow_map: Option<ShadowMapPass>,
     fibers: FibersPass,
     resolve: ResolvePass,
@@ -173,6 +176,7 @@ impl Renderer {
         let bakes: Vec<Bakes> = of_fabrics
             .map(|((fabric, features), fibers)| Bakes::new(&scene, fabric, features, fibers, &mut bakery))
             .collect();
+        let mut parts = Vec::new();
         let skies = bake::skies(&scene, &bakes, &features, &mut bakery);
         for (index, (fabric, features)) in scene.fabrics.iter().zip(features).enumerate() {
             let baked = upload::FabricBakes {
@@ -180,14 +184,15 @@ impl Renderer {
                 bakes: &bakes[index],
                 skies: skies.as_ref().map(|skies| &skies[index][..]),
             };
-            let buffers = upload::fabric_buffers(device, &scene, fabric, &baked, first_piece)?;
-            fibers.add_fabric(&buffers, features)?;
-            let pieces = fabric.strands.pieces.len() as u32;
-            let read_by = fibers.layouts(index).zip(fibers.sets(index));
-            if let Some((pass, (layouts, sets))) = shadow_map.as_mut().zip(read_by) {
-                pass.add_fabric(building, &features, &layouts, sets, pieces)?;
+            for (buffers, pieces) in upload::fabric_buffers(device, &scene, fabric, &baked, first_piece)? {
+                fibers.add_fabric(&buffers, features)?;
+                let read_by = fibers.layouts(parts.len()).zip(fibers.sets(parts.len()));
+                if let Some((pass, (layouts, sets))) = shadow_map.as_mut().zip(read_by) {
+                    pass.add_fabric(building, &features, &layouts, sets, pieces)?;
+                }
+                parts.push((index, pieces));
+                first_piece += pieces;
             }
-            first_piece += pieces;
             stats.add_left_out(&features, |what| savings::saved_bytes(&scene, fabric, what));
         }
         let resolve = ResolvePass::new(building, &targets)?;
@@ -207,6 +212,7 @@ impl Renderer {
             shadow_views,
             light_room,
             cloth,
+            parts,
             shadow_map,
             fibers,
             resolve,
@@ -314,7 +320,8 @@ impl Renderer {
     fn plan(&mut self, camera: &Camera) -> Result<u64, VulkanError> {
         let scene = &self.scene;
         let planned = Planned::new(scene, camera, &self.request, self.device.is_cpu());
-        self.fibers.plan(|fabric, strands, manner| planned.draws(fabric, strands, manner))?;
+        let parts = &self.parts;
+        self.fibers.plan(|part, strands, manner| planned.draws(parts[part], strands, manner))?;
         let left_out = || scene.fabrics.iter().enumerate().filter(|(index, _)| planned.unseen(*index));
         self.stats.add_left_out_of_frame(left_out().map(|(index, fabric)| {
             (format!("fabric {index} ({})", fabric.name), "all of it is outside the picture".to_owned())

@@ -134,7 +134,8 @@ fn a_broken_cache_is_made_anew_without_a_word() {
     let (whole, _) = drawing.draw(&[], &drawing.kept());
     let files = drawing.files();
     let good: Vec<Vec<u8>> = files.iter().map(|file| std::fs::read(file).expect("readable")).collect();
-    let breaks: [(&str, fn(&mut Vec<u8>)); 5] = [
+    type Break = fn(&mut Vec<u8>);
+    let breaks: [(&str, Break); 5] = [
         ("emptied", Vec::clear),
         ("cut short", |bytes| bytes.truncate(bytes.len() / 2)),
         ("a bit turned at the front", |bytes| bytes[0] ^= 1),

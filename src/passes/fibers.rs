@@ -98,7 +98,7 @@ impl FibersPass {
         let set = self.samplers.fabric_set(self.built.device(), &layout, buffers)?;
         let fabric = self.fabrics.len();
         self.fabrics.push((features, layout.clone(), set));
-        // Cores first: what lies behind them is then never shaded.
+        // Cores first, those of all fabrics: what lies behind them is then never shaded.
         let drawn = [
             (Strands::Core, Manner::AtPixels, features.core_fibers_drawn),
             (Strands::Regular, Manner::AtPixels, features.regular_fibers),
@@ -109,6 +109,7 @@ impl FibersPass {
             let plan = DrawPlan::default();
             self.draws.push(FabricDraw { pipeline: None, features, fabric, strands, manner, plan });
         }
+        self.draws.sort_by_key(|draw| draw.strands != Strands::Core);
         Ok(())
     }
 

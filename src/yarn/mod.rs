@@ -11,6 +11,7 @@ pub mod flyaway;
 pub mod level;
 pub mod migrated_density;
 pub mod migration;
+pub mod packed;
 pub mod params;
 pub mod period;
 pub mod pose;

@@ -26,6 +26,17 @@ pub struct Piece {
     pub turns: PieceTurns,
 }
 
+/// Turns along one curve: plies, fibers and migration.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CurveTurns {
+    /// Turns at its start, in [0, 1).
+    pub phases: [f64; 3],
+    /// Turns per mm.
+    pub rates: [f64; 3],
+    /// Its rest length.
+    pub length_mm: f64,
+}
+
 /// All yarns of a fabric, ready to carry fibers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strands {
@@ -45,6 +56,8 @@ pub struct Strands {
     /// For each curve, how many migrations of the fibers' radius it closes after; an open one [`MOST_MIGRATIONS`]
     /// where it has more than that, and 0 where it has not.
     pub period_counts: Vec<u32>,
+    /// What the turns of each curve's pieces follow from: all that the device is told of them.
+    pub curves: Vec<CurveTurns>,
 }
 
 impl Strands {
@@ -140,6 +153,7 @@ pub fn strands(curves: &[Curve], basis: Basis, yarn: &YarnParams, seed: u64) -> 
         control_point_count: curves.iter().map(|c| c.points.len()).sum(),
         closed: curves.iter().map(|curve| curve.closed).collect(),
         period_counts: vec![0; curves.len()],
+        curves: vec![CurveTurns::default(); curves.len()],
     };
     for (index, curve) in curves.iter().enumerate() {
         if curve.points.len() >= 2 {
@@ -179,6 +193,7 @@ fn append(all: &mut Strands, index: usize, curve: &Curve, yarn: &YarnParams, see
     }
     let mut rng = Rng::new(seed, &[index as u64]);
     let phases: [f64; 3] = std::array::from_fn(|_| rng.uniform());
+    all.curves[index] = CurveTurns { phases, rates, length_mm: total };
     let wrapped = |turns: Turns| match wraps {
         true => Turns { start: turns.start.rem_euclid(f64::from(MOST_MIGRATIONS)), ..turns },
         false => turns,
