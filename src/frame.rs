@@ -184,7 +184,10 @@ impl Renderer {
                 bakes: &bakes[index],
                 skies: skies.as_ref().map(|skies| &skies[index][..]),
             };
-            for (buffers, pieces) in upload::fabric_buffers(device, &scene, fabric, &baked, first_piece)? {
+            let started = Instant::now();
+            let uploaded = upload::fabric_buffers(device, &scene, fabric, &baked, first_piece)?;
+            stats.add_upload(started.elapsed());
+            for (buffers, pieces) in uploaded {
                 fibers.add_fabric(&buffers, features)?;
                 let read_by = fibers.layouts(parts.len()).zip(fibers.sets(parts.len()));
                 if let Some((pass, (layouts, sets))) = shadow_map.as_mut().zip(read_by) {

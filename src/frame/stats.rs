@@ -45,6 +45,8 @@ pub struct Stats {
     pub passes: Milliseconds,
     /// How `passes` was timed.
     pub timing_method: Option<&'static str>,
+    /// Loading the scene's fabrics: reading, finding out the unit, making yarns ready, and the upload.
+    pub load_ms: Milliseconds,
     /// Work done once before the first picture.
     pub precompute_ms: Milliseconds,
     /// What of that was read from the cache.
@@ -57,6 +59,8 @@ pub struct Stats {
     pub pipelines_from_cache_bytes: Option<u64>,
     /// Device memory by name.
     pub gpu_bytes: BTreeMap<String, u64>,
+    /// The most memory that the process held so far, what a CPU device holds included; where the system says it.
+    pub host_peak_bytes: Option<u64>,
     /// What the scene does not need, and why.
     pub left_out: BTreeMap<String, String>,
     /// Bytes of device memory that it would take, where it is more than code.
@@ -91,12 +95,14 @@ impl Stats {
             device_ms: None,
             passes: BTreeMap::new(),
             timing_method: None,
+            load_ms: load_ms(scene),
             precompute_ms: BTreeMap::new(),
             precompute_from_cache: BTreeSet::new(),
             pipelines_ms: 0.0,
             pipelines_built: 0,
             pipelines_from_cache_bytes: None,
             gpu_bytes: BTreeMap::new(),
+            host_peak_bytes: None,
             left_out: BTreeMap::new(),
             left_out_bytes: BTreeMap::new(),
             left_out_of_frame: BTreeMap::new(),
@@ -115,6 +121,11 @@ impl Stats {
         } else if first {
             self.precompute_from_cache.insert(name.to_owned());
         }
+    }
+
+    /// Takes note of the upload of a fabric.
+    pub(super) fn add_upload(&mut self, taken: Duration) {
+        *self.load_ms.entry("upload".to_owned()).or_default() += ms(taken);
     }
 
     /// Takes note of the pipelines.
@@ -187,6 +198,17 @@ impl Stats {
     }
 }
 
+/// What loading each of a scene's fabrics took, together.
+fn load_ms(scene: &Scene) -> Milliseconds {
+    let mut sums = Milliseconds::new();
+    for load in scene.fabrics.iter().map(|fabric| fabric.load) {
+        for (what, taken) in [("read", load.read), ("unit", load.unit), ("yarns", load.yarns)] {
+            *sums.entry(what.to_owned()).or_default() += ms(taken);
+        }
+    }
+    sums
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -240,12 +262,14 @@ mod tests {
                 device_ms: None,
                 passes: BTreeMap::new(),
                 timing_method: None,
+                load_ms: BTreeMap::new(),
                 precompute_ms: BTreeMap::new(),
                 precompute_from_cache: BTreeSet::new(),
                 pipelines_ms: 0.0,
                 pipelines_built: 0,
                 pipelines_from_cache_bytes: None,
                 gpu_bytes: BTreeMap::new(),
+                host_peak_bytes: None,
                 left_out: BTreeMap::new(),
                 left_out_bytes: BTreeMap::new(),
                 left_out_of_frame: BTreeMap::new(),
