@@ -2,7 +2,9 @@
 
 mod bake;
 mod cloth;
+mod keeping;
 pub mod lighting;
+pub mod packing;
 mod plan;
 pub mod sampling;
 mod savings;
@@ -12,6 +14,7 @@ pub mod upload;
 
 use crate::gpu_types::{Frame, Statistics, TUBE_CORNERS};
 use crate::graph::{Graph, Pass};
+use crate::io::kept::Kept;
 use crate::passes::fiber_sets::FrameBuffers;
 use crate::passes::fibers::FibersPass;
 use crate::passes::resolve::ResolvePass;
@@ -31,6 +34,7 @@ use crate::yarn::table::fiber_table;
 use bake::Bakes;
 pub use bake::check_tables;
 use cloth::Cloth;
+use keeping::{Bakery, KeptPipelines};
 use lighting::{LightRoom, light_scale, lights_that_reach};
 use plan::Planned;
 use sampling::Sampling;
@@ -77,10 +81,13 @@ pub struct Renderer {
     /// What the pipelines, the buffers and the shadow map have room for.
     light_room: LightRoom,
     cloth: Cloth,
+    /// Fabric and number of pieces of each part that the fiber pass draws.
+    parts: Vec<(usize, u32)>,
     shadow_map: Option<ShadowMapPass>,
     fibers: FibersPass,
     resolve: ResolvePass,
     tonemap: TonemapPass,
+    pipelines: KeptPipelines,
     graph: Graph,
     stats: Stats,
 }
@@ -91,7 +98,21 @@ impl Renderer {
     /// # Errors
     /// Those of the device: too large, out of memory, lost; what [`check_tables`] refuses.
     pub fn new(device: &Arc<Device>, scene: Scene, request: Request) -> Result<Self, VulkanError> {
-        Self::with_shaders(device, scene, request, ShaderSet::default())
+        Self::keeping(device, scene, request, &Kept::NOTHING)
+    }
+
+    /// The same, with baked tables and compiled pipelines of earlier runs where `kept` has them; those that it has not
+    /// are kept there.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; none of the cache, without which all is done anew.
+    pub fn keeping(
+        device: &Arc<Device>,
+        scene: Scene,
+        request: Request,
+        kept: &Kept,
+    ) -> Result<Self, VulkanError> {
+        Self::built(device, scene, request, ShaderSet::default(), kept)
     }
 
     /// The same with other shaders between yarn and radiance.
@@ -105,6 +126,18 @@ impl Renderer {
         request: Request,
         shaders: ShaderSet,
     ) -> Result<Self, VulkanError> {
+        Self::built(device, scene, request, shaders, &Kept::NOTHING)
+    }
+
+    fn built(
+        device: &Arc<Device>,
+        scene: Scene,
+        request: Request,
+        shaders: ShaderSet,
+        kept: &Kept,
+    ) -> Result<Self, VulkanError> {
+        let pipelines = KeptPipelines::new(device, kept)?;
+        let building = &pipelines.pipelines;
         let samples = request.sampling.multisampling();
         let targets = Targets::new(device, request.size, samples)?;
         let uniform = vk::BufferUsageFlags::UNIFORM_BUFFER;
@@ -129,39 +162,45 @@ impl Renderer {
         };
         let views = shadow_views.clone();
         let mut shadow_map = map.zip(views).map(|(map, views)| ShadowMapPass::new(map, views, TUBE_CORNERS));
-        let mut fibers = FibersPass::new(device, buffers, &features, samples)?.with_shaders(shaders);
+        let mut fibers = FibersPass::new(building, buffers, &features, samples)?.with_shaders(shaders);
         let mut stats = Stats::new(device, &scene, &request);
         let started = Instant::now();
         let environment = upload::environment(&scene);
         if scene.environment.is_some() {
-            stats.add_precompute("environment", started.elapsed());
+            stats.add_precompute("environment", started.elapsed(), false);
         }
+        let mut bakery = Bakery::new(kept, &mut stats);
         let mut first_piece = 0;
         let cross_sections: Vec<_> =
             scene.fabrics.iter().map(|fabric| fiber_table(&fabric.yarn, scene.file.seed)).collect();
         let of_fabrics = scene.fabrics.iter().zip(&features).zip(&cross_sections);
         let bakes: Vec<Bakes> = of_fabrics
-            .map(|((fabric, features), fibers)| Bakes::new(&scene, fabric, features, fibers, &mut stats))
+            .map(|((fabric, features), fibers)| Bakes::new(&scene, fabric, features, fibers, &mut bakery))
             .collect::<Result<_, _>>()?;
-        let skies = bake::skies(&scene, &bakes, &features, &mut stats);
+        let mut parts = Vec::new();
+        let skies = bake::skies(&scene, &bakes, &features, &mut bakery);
         for (index, (fabric, features)) in scene.fabrics.iter().zip(features).enumerate() {
             let baked = upload::FabricBakes {
                 cross_section: &cross_sections[index],
                 bakes: &bakes[index],
                 skies: skies.as_ref().map(|skies| &skies[index][..]),
             };
-            let buffers = upload::fabric_buffers(device, &scene, fabric, &baked, first_piece)?;
-            fibers.add_fabric(&buffers, features)?;
-            let pieces = fabric.strands.pieces.len() as u32;
-            let read_by = fibers.layouts(index).zip(fibers.sets(index));
-            if let Some((pass, (layouts, sets))) = shadow_map.as_mut().zip(read_by) {
-                pass.add_fabric(device, &features, &layouts, sets, pieces)?;
+            let started = Instant::now();
+            let uploaded = upload::fabric_buffers(device, &scene, fabric, &baked, first_piece)?;
+            stats.add_upload(started.elapsed());
+            for (buffers, pieces) in uploaded {
+                fibers.add_fabric(&buffers, features)?;
+                let read_by = fibers.layouts(parts.len()).zip(fibers.sets(parts.len()));
+                if let Some((pass, (layouts, sets))) = shadow_map.as_mut().zip(read_by) {
+                    pass.add_fabric(building, &features, &layouts, sets, pieces)?;
+                }
+                parts.push((index, pieces));
+                first_piece += pieces;
             }
-            first_piece += pieces;
             stats.add_left_out(&features, |what| savings::saved_bytes(&scene, fabric, what));
         }
-        let resolve = ResolvePass::new(device, &targets)?;
-        let tonemap = TonemapPass::new(device, &targets, &scene.file.display)?;
+        let resolve = ResolvePass::new(building, &targets)?;
+        let tonemap = TonemapPass::new(building, &targets, &scene.file.display)?;
         let device = device.clone();
         let graph = Graph::default();
         let cloth = Cloth::new(&scene);
@@ -177,10 +216,12 @@ impl Renderer {
             shadow_views,
             light_room,
             cloth,
+            parts,
             shadow_map,
             fibers,
             resolve,
             tonemap,
+            pipelines,
             graph,
             stats,
         })
@@ -233,6 +274,8 @@ impl Renderer {
         let camera = self.camera();
         self.stats.left_out_of_frame.clear();
         let unseen = self.plan(&camera)?;
+        self.pipelines.keep()?;
+        self.stats.set_pipelines(self.pipelines.pipelines.building(), self.pipelines.found_bytes);
         let frames = self.request.sampling.frames();
         let mut taken = Taken::NOTHING;
         let mut passes = HashMap::new();
@@ -281,7 +324,8 @@ impl Renderer {
     fn plan(&mut self, camera: &Camera) -> Result<u64, VulkanError> {
         let scene = &self.scene;
         let planned = Planned::new(scene, camera, &self.request, self.device.is_cpu());
-        self.fibers.plan(|fabric, strands, manner| planned.draws(fabric, strands, manner))?;
+        let parts = &self.parts;
+        self.fibers.plan(|part, strands, manner| planned.draws(parts[part], strands, manner))?;
         let left_out = || scene.fabrics.iter().enumerate().filter(|(index, _)| planned.unseen(*index));
         self.stats.add_left_out_of_frame(left_out().map(|(index, fabric)| {
             (format!("fabric {index} ({})", fabric.name), "all of it is outside the picture".to_owned())

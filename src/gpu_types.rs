@@ -24,34 +24,44 @@ pub struct ControlPoint {
     pub normal_octahedral: u32,
 }
 
-/// One cubic piece of a yarn. Turns are reduced to [0, 1] in f64; deltas are not.
+/// One cubic piece of a yarn: [`crate::yarn::packed::packed_piece`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Piece {
+    /// Rest length of the curve before it, in 2^-42 of the curve's: the low word.
+    pub length_low: u32,
+    /// The 10 high bits, and above them the curve's place in the table.
+    pub length_high_curve: u32,
+}
+
+/// What all pieces of a curve share: [`crate::yarn::packed::PackedCurve`]. Rates are low word, high word.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
-pub struct Segment {
-    /// First of four consecutive control points.
+pub struct Curve {
+    /// First control point of piece 0 if it were of this curve; wraps around.
     pub first_point: u32,
-    /// The curve it belongs to.
+    /// The curve's number in its fabric.
     pub curve: u32,
-    /// Whole periods of the fibers' radius before this piece.
-    pub migration_period: i32,
-    /// Periods of a closed curve; 0 on an open one.
+    /// Periods of a closed curve, or after which an open one counts anew; 0 where it does not.
     pub migration_period_count: u32,
-    /// Rotation of the plies at the start, in turns.
-    pub ply_turns: f32,
-    /// Twist of the fibers inside the ply's frame, in turns.
-    pub fiber_turns: f32,
-    /// Phase of the fibers' radius, in turns.
-    pub migration_turns: f32,
-    /// Rest length of the curve before this piece in mm, modulo [`LENGTH_STRIPE`].
-    pub length_start: f32,
-    /// Turns of the plies over the piece.
-    pub ply_turns_delta: f32,
-    /// Turns of the fibers over the piece.
-    pub fiber_turns_delta: f32,
-    /// Turns of the radius's phase over the piece.
-    pub migration_turns_delta: f32,
-    /// Rest length of this piece in mm.
+    /// Rotation of the plies at the curve's start, in 2^-32 turns.
+    pub ply_phase: u32,
+    /// Twist of the fibers, likewise.
+    pub fiber_phase: u32,
+    /// Phase of the fibers' radius, likewise.
+    pub migration_phase: u32,
+    /// Rotation of the plies in each 2^-42 of the curve, in 2^-64 turns.
+    pub ply_rate: [u32; 2],
+    /// Twist of the fibers, likewise.
+    pub fiber_rate: [u32; 2],
+    /// Phase of the fibers' radius, likewise.
+    pub migration_rate: [u32; 2],
+    /// Stripes of [`LENGTH_STRIPE`], likewise.
+    pub stripe_rate: [u32; 2],
+    /// Its rest length in mm.
     pub length_mm: f32,
+    /// Nothing.
+    pub padding: u32,
 }
 
 /// One fiber of the cross-section.

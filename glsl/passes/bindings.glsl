@@ -11,7 +11,7 @@ layout(std430, set = 0, binding = 2) readonly buffer LightBlock { Light lights[]
 layout(std430, set = 0, binding = 3) readonly buffer ShadowViewBlock { ShadowView shadow_views[]; };
 
 layout(std430, set = 1, binding = 0) readonly buffer ControlPointBlock { ControlPoint control_points[]; };
-layout(std430, set = 1, binding = 1) readonly buffer SegmentBlock { Segment segments[]; };
+layout(std430, set = 1, binding = 1) readonly buffer PieceBlock { Piece yarn_pieces[]; }; // and one behind them
 layout(std430, set = 1, binding = 2) readonly buffer FiberBlock { Fiber fibers[]; };
 layout(std430, set = 1, binding = 3) readonly buffer YarnBlock { Yarn yarn; };
 
@@ -29,5 +29,7 @@ layout(set = 1, binding = 9) uniform sampler2D occlusion_table;
 
 // For each control point four halves: src/precompute/sky.rs.
 layout(std430, set = 1, binding = 10) readonly buffer SkyBlock { uvec2 skies[]; };
+
+layout(std430, set = 1, binding = 11) readonly buffer CurveBlock { Curve curves[]; };
 
 #endif

@@ -38,7 +38,7 @@ float texels_of(float pixel_mm) {
 uvec4 cell_words(vec2 uv, float texels) {
     float cell = exp2(ceil(log2(max(texels, 1.0))));
     ivec2 place = ivec2(floor(uv * vec2(textureSize(core_shape, 0).xy) / cell));
-    return hash_words(uvec4(uvec2(place), fragment_core.z * 8u + fragment_core.x, frame.index));
+    return hash_words(uvec4(uvec2(place), (yarn.first_piece + fragment_core.z) * 8u + fragment_core.x, frame.index));
 }
 
 // Place in the yarn's cross-section, along side and toward and as a share of outer_radius, of what lies at `v`

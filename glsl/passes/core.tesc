@@ -13,9 +13,9 @@ layout(location = 0) patch out uint patch_segment;
 layout(location = 1) patch out uint patch_pieces;
 
 void main() {
-    Segment segment = segments[segment_index[0]];
+    Segment segment = segment_at(segment_index[0]);
     vec3 b[4];
-    fetch_bezier(segment, b);
+    fetch_bezier(segment.first_point, b);
     bool culled = CULLING && outside_frustum(b, yarn.reach + yarn.fiber_radius, frame.frustum_world);
     float pixel_mm = frame.pixel_tangent * nearest_depth(b, depth_axis(), yarn.reach, frame.near_mm);
     // The core is thickest where the piece is farthest away.

@@ -23,7 +23,7 @@ layout(location = 6) out vec3 toward_world;
 void main() {
     uint ply = uint(gl_TessCoord.y * float(yarn.ply_count) + 0.5);
     float t = floor(gl_TessCoord.x * float(patch_pieces) + 0.5) / float(patch_pieces);
-    Segment segment = segments[patch_segment];
+    Segment segment = segment_at(patch_segment);
     // A fiber at the ply's centre.
     FiberPoint center = fetch_fiber_point(segment, Fiber(0.0, 0.0, 0.0, ply), t, FiberShape(0.0, 0.0, 0.0, 0.0, 1.0));
     vec3 to_eye = direction_or(frame.eye_world.xyz - center.position, vec3(0.0, 0.0, 1.0));
@@ -39,5 +39,5 @@ void main() {
     section = vec4(seen.width, seen.depth, seen.shear, core_turns(twist_at(segment, t).fiber, seen.phase));
     float expected = t * (segment.fiber_turns_delta + segment.ply_turns_delta);
     place = vec4(seen.from_yarn, detail_at(pixel_mm_at(center.position)).level, expected);
-    core = uvec3(ply, uint(shown(patch_segment, center, KIND_CORE, t)), patch_segment);
+    core = uvec3(ply, uint(shown(segment, center, KIND_CORE, t)), patch_segment);
 }

@@ -68,9 +68,9 @@ uint pieces_of(Segment segment, vec3 b[4], float pixel_mm, uint most) {
 }
 
 void main() {
-    Segment segment = segments[segment_index[0]];
+    Segment segment = segment_at(segment_index[0]);
     vec3 b[4];
-    fetch_bezier(segment, b);
+    fetch_bezier(segment.first_point, b);
     bool outside = CULLING && outside_frustum(b, yarn.reach + yarn.fiber_radius, frame.frustum_world);
     float pixel_mm = frame.pixel_tangent * nearest_depth(b, depth_axis(), yarn.reach, frame.near_mm);
     // Of the yarn itself: it must not change with the hairs' length.

@@ -60,20 +60,21 @@ void main() {
     fiber_index = CORE_FIBERS ? fiber_of_slot(slot, yarn) : slot;
     float place = floor(gl_TessCoord.x * float(patch_pieces) + 0.5);
     float t = place / float(patch_pieces);
+    Segment segment = segment_at(patch_segment);
     FiberPoint f;
     bool flies = false;
     if (FLYAWAYS) {
         StrandVertex vertex;
-        f = fetch_fiber_vertex(patch_segment, fiber_index, t, patch_pieces, vertex);
+        f = fetch_fiber_vertex(segment, fiber_index, t, patch_pieces, vertex);
         // Beyond its tip a hair's period goes on as a fiber that only migrates.
         bool migrates = vertex.period.kind == KIND_HAIR && !on_hair(vertex.period, vertex.x);
         uint kind = migrates ? KIND_MIGRATION : vertex.period.kind;
         flies = kind != KIND_MIGRATION && f.radius > flying_radius(fibers[fiber_index], yarn);
-        joining = ivec4(vertex.entry, vertex.exit, shown(patch_segment, f, kind, vertex.t), int(place));
+        joining = ivec4(vertex.entry, vertex.exit, shown(segment, f, kind, vertex.t), int(place));
     } else {
         Period period;
-        f = fetch_fiber_at(patch_segment, fiber_index, t, period);
-        joining = ivec4(0, 0, shown(patch_segment, f, period.kind, t), int(place));
+        f = fetch_fiber_at(segment, fiber_index, t, period);
+        joining = ivec4(0, 0, shown(segment, f, period.kind, t), int(place));
     }
     position_world = f.position;
     tangent_world = vec4(f.tangent, CORE_FIBERS ? f.width * drawn_width(slot, f.position, flies) : f.width);

@@ -39,7 +39,7 @@ bool drawn_here(uint segment_index, float pixel_mm) {
     if (!VERTEX_SHADING) {
         return true;
     }
-    float chance = uniform_from_word(hash_words(uvec4(segment_index, 0u, 0u, 0u)).x);
+    float chance = uniform_from_word(hash_words(uvec4(yarn.first_piece + segment_index, 0u, 0u, 0u)).x);
     float width_px = frame.vertex_shaded_px * (1.0 + VERTEX_SHADED_FADE * (chance - 0.5));
     return (2.0 * yarn.ply_radius < width_px * pixel_mm) == AT_VERTICES;
 }

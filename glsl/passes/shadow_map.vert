@@ -19,7 +19,7 @@ void main() {
     float edge = float(gl_VertexIndex & 1) * 2.0 - 1.0;
     uint index = uint(gl_InstanceIndex);
     vec3 b[4];
-    fetch_bezier(segments[index], b);
+    fetch_bezier(first_point_of(index), b);
     CurvePoint at = bezier_point(b, tube_row(row));
     vec3 tangent = piece_tangent(b, at.derivative);
     vec3 toward = direction_or(view.toward.xyz - view.toward.w * at.position, vec3(0.0, 0.0, 1.0));

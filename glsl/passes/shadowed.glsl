@@ -6,6 +6,7 @@
 #include "../lib/frame.glsl"
 #include "../lib/hash.glsl"
 #include "../shading/shadow_map.glsl"
+#include "../yarn/pieces.glsl"
 
 layout(set = 0, binding = 4) uniform usampler2DArray shadow_map;
 
@@ -77,9 +78,9 @@ float shadow_map_light(Light light, vec3 position, float from_center, vec3 to_li
     // A hair stands farther out than the tube, behind more of it.
     float radius = max(yarn.outer_radius, from_center);
     // The piece's middle points lie along it in every basis.
-    uint first = segments[segment].first_point;
+    uint first = first_point_of(segment);
     vec3 along = direction_or(control_points[first + 2u].position - control_points[first + 1u].position, to_light);
-    float window = shadow_window(dot(along, to_light), radius, segments[segment].length_mm);
+    float window = shadow_window(dot(along, to_light), radius, length_mm_of(segment));
     uint piece = yarn.first_piece + segment;
     if (!SOFT_SHADOWS || light.angular_tangent <= 0.0) {
         return unhidden(place.xy, float(index), depth, piece, window);

@@ -25,11 +25,10 @@ vec3 detail_color(vec3 position) {
     return clamp(vec3(2.0 * share - 0.6, 1.0 - 2.0 * abs(share - 0.5), 1.2 - 3.0 * share), 0.0, 1.0);
 }
 
-int shown(uint segment_index, FiberPoint f, uint kind, float t) {
-    Segment segment = segments[segment_index];
+int shown(Segment segment, FiberPoint f, uint kind, float t) {
     if (DEBUG_VIEW == VIEW_FRAME) {
         vec3 b[4];
-        fetch_bezier(segment, b);
+        fetch_bezier(segment.first_point, b);
         vec3 yarn_tangent = piece_tangent(b, bezier_point(b, t).derivative);
         return int(packUnorm4x8(vec4(frame_color(f, yarn_tangent), 1.0)));
     }

@@ -152,7 +152,7 @@ float reflected_share(Strand strand) {
 
 // What other yarns leave open of the sky, between the piece's two inner control points.
 vec4 open_sky(Strand strand) {
-    uint first = segments[strand.piece].first_point + 1u;
+    uint first = first_point_of(strand.piece) + 1u;
     vec3 start = control_points[first].position;
     vec3 along = control_points[first + 1u].position - start;
     float share = clamp(dot(strand.position - start, along) / max(dot(along, along), 1e-12), 0.0, 1.0);

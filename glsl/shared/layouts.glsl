@@ -10,21 +10,26 @@ struct ControlPoint {
     uint normal_octahedral; // rest-frame normal of the knot, two 16-bit snorms
 };
 
-// One cubic piece of a yarn: 48 bytes. Turns are reduced to [0, 1) on the host in f64; a delta is
-// what the piece adds, never the difference of two reduced values.
-struct Segment {
-    uint first_point;       // of four consecutive control points
+// One cubic piece of a yarn: 8 bytes. glsl/yarn/packed.glsl reads it.
+struct Piece {
+    uint length_low;        // rest length of the curve before it, in 2^-42 of the curve's
+    uint length_high_curve; // its 10 high bits, and above them the curve's place in the table
+};
+
+// What all pieces of a curve share: 64 bytes. Phases in 2^-32 turns, rates in 2^-64 turns per unit of length.
+struct Curve {
+    uint first_point;       // of piece 0 if it were of this curve
     uint curve;
-    int migration_period;   // whole periods of R before this piece
-    uint migration_period_count; // periods of a closed curve; 0 on an open one
-    float ply_turns;        // ply rotation about the yarn, in turns
-    float fiber_turns;      // fiber twist inside the ply frame, in turns
-    float migration_turns;  // phase of R, in turns
-    float length_start;     // rest length of the curve before this piece, modulo LENGTH_STRIPE
-    float ply_turns_delta;
-    float fiber_turns_delta;
-    float migration_turns_delta;
-    float length_mm;        // rest length of this piece
+    uint migration_period_count; // periods of a closed curve; 0 on an open one that does not count anew
+    uint ply_phase;
+    uint fiber_phase;
+    uint migration_phase;
+    uvec2 ply_rate;         // low word, high word; two's complement
+    uvec2 fiber_rate;
+    uvec2 migration_rate;
+    uvec2 stripe_rate;      // of LENGTH_STRIPE
+    float length_mm;        // of the whole curve at rest
+    uint padding;
 };
 
 // One fiber of the cross-section: 16 bytes.

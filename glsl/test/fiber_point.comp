@@ -18,7 +18,7 @@ void main() {
         return;
     }
     Period period;
-    FiberPoint f = fetch_fiber_at(queries[i].segment, queries[i].fiber, queries[i].t, period);
+    FiberPoint f = fetch_fiber_at(segment_at(queries[i].segment), queries[i].fiber, queries[i].t, period);
     answers[i].position = vec4(f.position, f.center_distance);
     answers[i].tangent = vec4(f.tangent, float(period.kind));
 }

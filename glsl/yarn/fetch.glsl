@@ -4,15 +4,16 @@
 
 #include "fiber.glsl"
 #include "breaks.glsl"
+#include "pieces.glsl"
 
 // First and last control point of a piece that lie on (or next to) its knots carry its normals.
 const uint KNOT_START = BASIS == BASIS_BEZIER ? 0 : 1;
 const uint KNOT_END = BASIS == BASIS_BEZIER ? 3 : 2;
 
-// The piece as a Bezier curve.
-void fetch_bezier(Segment segment, out vec3 b[4]) {
+// The piece that begins with this control point as a Bezier curve.
+void fetch_bezier(uint first_point, out vec3 b[4]) {
     for (uint k = 0; k < 4; ++k) {
-        b[k] = control_points[segment.first_point + k].position;
+        b[k] = control_points[first_point + k].position;
     }
     bezier_from_basis(b, BASIS);
 }
@@ -20,7 +21,7 @@ void fetch_bezier(Segment segment, out vec3 b[4]) {
 // The fiber with this index in the yarn's table, at t of the piece, in the given shape.
 FiberPoint fetch_fiber_point(Segment segment, Fiber fiber, float t, FiberShape shape) {
     vec3 b[4];
-    fetch_bezier(segment, b);
+    fetch_bezier(segment.first_point, b);
     vec3 normal_start = unit_from_octahedral(control_points[segment.first_point + KNOT_START].normal_octahedral);
     vec3 normal_end = unit_from_octahedral(control_points[segment.first_point + KNOT_END].normal_octahedral);
     YarnPoint yarn_at = yarn_point(b, normal_start, normal_end, t);
@@ -28,8 +29,7 @@ FiberPoint fetch_fiber_point(Segment segment, Fiber fiber, float t, FiberShape s
 }
 
 // The fiber at exactly t, whatever it is there.
-FiberPoint fetch_fiber_at(uint segment_index, uint fiber_index, float t, out Period period) {
-    Segment segment = segments[segment_index];
+FiberPoint fetch_fiber_at(Segment segment, uint fiber_index, float t, out Period period) {
     Fiber fiber = fibers[fiber_index];
     if (!FLYAWAYS) {
         period.kind = KIND_MIGRATION;
@@ -42,11 +42,10 @@ FiberPoint fetch_fiber_at(uint segment_index, uint fiber_index, float t, out Per
     return fetch_fiber_point(segment, fiber, t, shape);
 }
 
-// A vertex of the fiber drawn in `pieces` steps, with what joins it to its neighbours.
-FiberPoint fetch_fiber_vertex(uint segment_index, uint fiber_index, float t, uint pieces, out StrandVertex vertex) {
-    Segment segment = segments[segment_index];
+// A vertex of the fiber drawn in `steps` pieces, with what joins it to its neighbours.
+FiberPoint fetch_fiber_vertex(Segment segment, uint fiber_index, float t, uint steps, out StrandVertex vertex) {
     Fiber fiber = fibers[fiber_index];
-    vertex = strand_vertex(segment, fiber, fiber_index, t, pieces, yarn);
+    vertex = strand_vertex(segment, fiber, fiber_index, t, steps, yarn);
     FiberShape shape = period_shape(fiber, vertex.period, vertex.x, period_rate(segment, yarn), yarn);
     return fetch_fiber_point(segment, fiber, vertex.t, shape);
 }

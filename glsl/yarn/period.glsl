@@ -5,6 +5,7 @@
 
 #include "../shared/constants.glsl"
 #include "../shared/layouts.glsl"
+#include "segment.glsl"
 #include "../lib/hash.glsl"
 #include "migration.glsl"
 

@@ -1,4 +1,4 @@
-//! What work took: of the wall clock, and of all the process's threads.
+//! What work took: of the wall clock, of all the process's threads, and of memory.
 
 use std::time::Instant;
 
@@ -34,9 +34,29 @@ pub fn cpu_seconds() -> f64 {
     f64::NAN
 }
 
+/// The most memory that this process has held so far; where the system says it, as Linux does.
+pub fn host_peak_bytes() -> Option<u64> {
+    peak_of(&std::fs::read_to_string("/proc/self/status").ok()?)
+}
+
+fn peak_of(status: &str) -> Option<u64> {
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_peak_grows_with_what_is_held() {
+        assert_eq!(peak_of("Name:\tx\nVmHWM:\t    1234 kB\nVmRSS:\t 1 kB\n"), Some(1234 * 1024));
+        assert_eq!(peak_of("VmHWM: many kB"), None);
+        let Some(before) = host_peak_bytes() else { return };
+        let held = std::hint::black_box(vec![1_u8; 1 << 28]);
+        let after = host_peak_bytes().expect("said before");
+        assert!(held.len() as u64 <= after && before <= after, "{before} {after}");
+    }
 
     #[test]
     fn work_takes_time_and_waiting_none_of_the_processor() {

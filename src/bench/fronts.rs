@@ -1,9 +1,9 @@
 //! The measured front of a device, kept for `worsted render --max-error` and `--max-ms`: one file in the cache.
 
-use super::cache::Cache;
 use super::report::{Cell, Report};
 use super::settings::Setting;
 use crate::error::Error;
+use crate::io::cache::Cache;
 use crate::io::error::{FileError, Place};
 use crate::io::whole::write_whole;
 use crate::math::digest::Digest;

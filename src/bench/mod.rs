@@ -6,7 +6,6 @@
 
 pub mod blame;
 pub mod budget;
-pub mod cache;
 pub mod clock;
 pub mod cloth;
 pub mod fronts;

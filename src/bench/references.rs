@@ -1,8 +1,8 @@
 //! Traced references, kept by what decides them: made once, never half-written, rebuilt where damaged.
 
-use super::cache::Cache;
 use super::truth::{Floor, Truth, TruthSettings, trace};
 use crate::error::Error;
+use crate::io::cache::Cache;
 use crate::io::error::FileError;
 use crate::io::measured::MeasuredImage;
 use crate::io::whole::write_whole;

@@ -2,7 +2,6 @@
 //! every picture.
 
 use super::against;
-use super::cache::Cache;
 use super::measure::{Measured, measure};
 use super::references::{self, reference};
 use super::report::{
@@ -15,6 +14,7 @@ use super::work::work;
 use crate::error::Error;
 use crate::frame::Request;
 use crate::frame::sampling::Sampling;
+use crate::io::cache::Cache;
 use crate::io::error::FileError;
 use crate::io::picture::{DisplayImage, write_png};
 use crate::math::digest::Digest;

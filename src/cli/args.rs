@@ -122,6 +122,9 @@ pub struct Render {
     /// Say what was built and what was left out, and why.
     #[arg(long)]
     pub explain: bool,
+    /// Bake tables and build pipelines anew, and keep neither.
+    #[arg(long, conflicts_with = "folder")]
+    pub no_cache: bool,
     /// What it may cost.
     #[command(flatten)]
     pub budget: Budget,

@@ -6,7 +6,6 @@ use super::job::parse_size;
 use super::open_device;
 use super::output::write_text;
 use super::progress::{set_share, share_bar};
-use crate::bench::cache::Cache;
 use crate::bench::cloth::{Cloth, Model};
 use crate::bench::fronts::{Fronts, look};
 use crate::bench::page;
@@ -17,6 +16,7 @@ use crate::bench::truth::TruthSettings;
 use crate::bench::views::views;
 use crate::cli::say::{say, tell};
 use crate::error::Error;
+use crate::io::cache::Cache;
 use crate::io::error::FileError;
 use crate::scene::Scene;
 use crate::vulkan::Device;
@@ -38,7 +38,7 @@ const QUICK: (&str, u64) = ("160x120", 16);
 /// Arguments that make no sense; those of scenes, references, the device and files.
 pub fn run(args: &Bench, common: &Common) -> Result<(), Error> {
     check_samples(&args.samples)?;
-    let cache = Cache::new(args.cache.folder.as_deref())?;
+    let cache = Cache::new(args.cache.folder.as_deref()).map_err(Error::Arguments)?;
     let (size, samples) = if args.quick { QUICK } else { USUAL };
     let size = parse_size(args.size.as_deref().unwrap_or(size))?;
     let all = if args.quick { quick_grid() } else { grid(&args.samples) };

@@ -7,7 +7,8 @@ use std::path::PathBuf;
 /// Where what took long is kept.
 #[derive(Debug, ClapArgs)]
 pub struct CacheArgs {
-    /// Where references and fronts are kept; `WORSTED_CACHE` or the user's cache folder when not given.
+    /// Where what took long is kept: references and fronts of `bench`, tables and pipelines of `render`;
+    /// `WORSTED_CACHE` or the user's cache folder when not given.
     #[arg(long = "cache", value_name = "DIR")]
     pub folder: Option<PathBuf>,
 }

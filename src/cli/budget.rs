@@ -4,7 +4,6 @@ use super::bench_args::Budget;
 use super::job::{RenderJob, in_range};
 use crate::bench::against;
 use crate::bench::budget::{Facts, Promise, Wanted, pick};
-use crate::bench::cache::Cache;
 use crate::bench::fronts::{Fronts, look};
 use crate::bench::measure::measure;
 use crate::bench::references::reference;
@@ -15,6 +14,7 @@ use crate::cli::say::tell;
 use crate::error::Error;
 use crate::frame::Picture;
 use crate::frame::sampling::Sampling;
+use crate::io::cache::Cache;
 use crate::io::picture::LinearImage;
 use crate::scene::Scene;
 use crate::vulkan::Device;
@@ -51,7 +51,11 @@ impl BudgetJob {
             }
             return Ok(None);
         }
-        Ok(Some(Self { wanted, verify: args.verify, cache: Cache::new(args.cache.folder.as_deref())? }))
+        Ok(Some(Self {
+            wanted,
+            verify: args.verify,
+            cache: Cache::new(args.cache.folder.as_deref()).map_err(Error::Arguments)?,
+        }))
     }
 
     /// Picks settings for the job's scene and puts them in place; says which and why.

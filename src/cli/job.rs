@@ -6,6 +6,8 @@ use super::output::Output;
 use crate::cli::say::tell;
 use crate::error::Error;
 use crate::frame::{Request, check_tables};
+use crate::io::cache::Cache;
+use crate::io::kept::Kept;
 use crate::io::picture::{MAX_PIXELS, MAX_SIDE};
 use crate::io::whole::check_target;
 use crate::reference::fibers::RealiseSettings;
@@ -34,6 +36,8 @@ pub struct RenderJob {
     pub stats: Option<PathBuf>,
     /// Whether to say what was left out.
     pub explain: bool,
+    /// Tables and pipelines of earlier runs.
+    pub kept: Kept,
     /// Device and log options.
     pub common: Common,
 }
@@ -68,9 +72,21 @@ impl RenderJob {
             repeat: args.repeat,
             stats: args.stats.clone(),
             explain: args.explain,
+            kept: kept(args),
             common: common.clone(),
         })
     }
+}
+
+/// Where tables and pipelines are kept: nowhere for a user without a home, who named no folder.
+fn kept(args: &Render) -> Kept {
+    if args.no_cache {
+        return Kept::NOTHING;
+    }
+    Cache::new(args.budget.cache.folder.as_deref()).map(Kept::within).unwrap_or_else(|why| {
+        tracing::debug!("{why}");
+        Kept::NOTHING
+    })
 }
 
 /// The scene with what `--camera`, `--seed` and `--set` set, in an order that gives `--set` the last word.

@@ -4,6 +4,7 @@ use super::job::{RenderJob, report_notes};
 use super::open_device;
 use super::output::write_text;
 use super::progress::{set_share, share_bar};
+use crate::bench::clock::host_peak_bytes;
 use crate::cli::say::say;
 use crate::error::Error;
 use crate::frame::stats::Stats;
@@ -41,7 +42,7 @@ pub fn run(mut job: RenderJob) -> Result<(), Error> {
 }
 
 fn draw(job: &RenderJob, device: &std::sync::Arc<Device>) -> Result<(Picture, Stats), Error> {
-    let mut renderer = Renderer::new(device, job.scene.clone(), job.request)?;
+    let mut renderer = Renderer::keeping(device, job.scene.clone(), job.request, &job.kept)?;
     let bar = share_bar(&job.common);
     let pictures = f64::from(job.repeat);
     let mut picture = None;
@@ -57,14 +58,30 @@ fn draw(job: &RenderJob, device: &std::sync::Arc<Device>) -> Result<(Picture, St
     }
     let mut stats = renderer.stats().clone();
     stats.set_gpu_bytes(device);
+    stats.host_peak_bytes = host_peak_bytes();
     Ok((picture, stats))
 }
 
 fn explain(stats: &Stats) {
     say!("device: {} ({})", stats.device, stats.driver);
     say!("drawn: {} pieces of yarn, {} fiber curves", stats.yarn_segments, stats.fiber_curves);
+    for (what, taken) in &stats.load_ms {
+        say!("loaded: {what}, {taken:.1} ms");
+    }
+    for (what, taken) in &stats.precompute_ms {
+        let cached = if stats.precompute_from_cache.contains(what) { "read from the cache" } else { "baked" };
+        say!("{cached}: {what}, {taken:.1} ms");
+    }
+    let given = stats
+        .pipelines_from_cache_bytes
+        .map_or_else(String::new, |bytes| format!(", the driver given {bytes} bytes of an earlier run"));
+    say!("built: {} pipelines, {:.1} ms{given}", stats.pipelines_built, stats.pipelines_ms);
     for (what, bytes) in &stats.gpu_bytes {
         say!("built: {what}, {bytes} bytes");
+    }
+    say!("on the device: {} bytes", stats.gpu_bytes.values().sum::<u64>());
+    if let Some(bytes) = stats.host_peak_bytes {
+        say!("on the host: {bytes} bytes at most");
     }
     for (what, why) in &stats.left_out {
         let saved = stats.left_out_bytes.get(what);

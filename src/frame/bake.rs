@@ -1,6 +1,7 @@
 //! What is worked out on the CPU for a fabric before it is uploaded: only what its features ask for.
 
-use super::stats::Stats;
+use super::keeping::Bakery;
+use crate::io::kept::Key;
 use crate::precompute::chord_shadow::{ChordShadow, bake_chord_shadow};
 use crate::precompute::core_texture::{CoreTexture, bake_core};
 use crate::precompute::occlusion_fit::{OcclusionFit, fit_occlusion};
@@ -19,7 +20,6 @@ use crate::yarn::density::extinction_per_mm;
 use crate::yarn::table::Fiber;
 use half::f16;
 use std::cell::LazyCell;
-use std::time::Instant;
 
 /// A fabric's tables; absent where nothing reads them.
 pub struct Bakes {
@@ -42,7 +42,7 @@ pub struct Bakes {
 }
 
 impl Bakes {
-    /// Bakes what `features` need of a fabric with these fibers, and tells `stats` how long each took.
+    /// Bakes what `features` need of a fabric with these fibers.
     ///
     /// # Errors
     /// What [`check_tables`] refuses.
@@ -51,7 +51,7 @@ impl Bakes {
         fabric: &Fabric,
         features: &Features,
         cross_section: &[Fiber],
-        stats: &mut Stats,
+        bakery: &mut Bakery<'_>,
     ) -> Result<Self, VulkanError> {
         let quality = &scene.file.quality;
         let core =
@@ -63,28 +63,37 @@ impl Bakes {
         let distance = || fit_occlusion(&section, extinction_per_mm);
         // What leans outward is by distance in either mode, but nothing shows it without ambient light.
         let by_distance = features.distance_occlusion || features.texture_occlusion && features.ambient;
-        let texture = || {
-            let texels = occlusion_texels(scene, fabric).map_err(VulkanError::misuse)?;
-            Ok(bake_occlusion_table(yarn, extinction_per_mm, texels))
-        };
+        let texels = features.texture_occlusion.then(|| occlusion_texels(scene, fabric));
+        let texels = texels.transpose().map_err(VulkanError::misuse)?;
         let size = SelfShadowSize::of(quality.self_shadow_texels);
         let shadow = || shadow_radius_mm(&section, extinction_per_mm);
         let hides = features.shadow_map || features.yarn_occlusion;
         let depth = || bake_self_shadow(yarn, size);
         let by_place = features.self_shadow && !features.chord_shadow;
         let chords = || bake_chord_shadow(yarn);
+        let of_yarn = |key: Key| key.shown(&(yarn, extinction_per_mm));
+        let of_core = |key: Key| {
+            key.shown(&(yarn, cross_section)).shown(&(quality.core_texture_rows, quality.core_visible_share))
+        };
+        let of_fiber = |key: Key| key.shown(&(fabric.fiber.scattering(), quality.scattering_entries));
         Ok(Self {
-            occlusion: by_distance.then(|| timed(stats, "distance_occlusion", distance)),
-            occlusion_texture: features
-                .texture_occlusion
-                .then(|| timed(stats, "occlusion_texture", texture))
-                .transpose()?,
-            self_shadow: by_place.then(|| timed(stats, "self_shadow", depth)),
-            chord_shadow: features.chord_shadow.then(|| timed(stats, "self_shadow", chords)),
-            shadow_radius_mm: if hides { shadow() } else { yarn.outer_radius_mm() },
+            occlusion: by_distance.then(|| bakery.table("distance_occlusion", of_yarn, distance)),
+            occlusion_texture: texels.map(|texels| {
+                let texture = || bake_occlusion_table(yarn, extinction_per_mm, texels);
+                bakery.table("occlusion_texture", |key| of_yarn(key).shown(&texels), texture)
+            }),
+            self_shadow: by_place
+                .then(|| bakery.table("self_shadow", |key| key.shown(&(yarn, size)), depth)),
+            chord_shadow: features
+                .chord_shadow
+                .then(|| bakery.table("chord_shadow", |key| key.shown(yarn), chords)),
+            shadow_radius_mm: match hides {
+                true => bakery.table("shadow_radius", of_yarn, shadow),
+                false => yarn.outer_radius_mm(),
+            },
             extinction: extinction_per_mm * yarn.outer_radius_mm(),
-            core: features.core_fibers.then(|| timed(stats, "core_texture", core)),
-            scattering: features.physical.then(|| timed(stats, "scattering_table", scattering)),
+            core: features.core_fibers.then(|| bakery.table("core_texture", of_core, core)),
+            scattering: features.physical.then(|| bakery.table("scattering_table", of_fiber, scattering)),
         })
     }
 }
@@ -128,11 +137,12 @@ pub fn skies(
     scene: &Scene,
     bakes: &[Bakes],
     features: &[Features],
-    stats: &mut Stats,
+    bakery: &mut Bakery<'_>,
 ) -> Option<Vec<Vec<[f16; 4]>>> {
     features.iter().any(|features| features.yarn_occlusion).then(|| {
         let yarns: Vec<SkyYarns<'_>> = scene.fabrics.iter().zip(bakes).map(sky_yarns).collect();
-        timed(stats, "sky", || bake_skies(&yarns))
+        let of_yarns = |key: Key| yarns.iter().fold(key, of_sky_yarns);
+        bakery.table("sky", of_yarns, || bake_skies(&yarns))
     })
 }
 
@@ -144,9 +154,15 @@ fn sky_yarns<'a>((fabric, bakes): (&'a Fabric, &Bakes)) -> SkyYarns<'a> {
     }
 }
 
-fn timed<T>(stats: &mut Stats, name: &str, bake: impl FnOnce() -> T) -> T {
-    let started = Instant::now();
-    let baked = bake();
-    stats.add_precompute(name, started.elapsed());
-    baked
+/// A key with all that decides what one fabric hides and sees of the sky.
+fn of_sky_yarns(key: Key, yarns: &SkyYarns<'_>) -> Key {
+    let strands = yarns.strands;
+    let key = key
+        .shown(&(strands.basis, yarns.hiding_radius_mm, yarns.outer_radius_mm, &strands.closed))
+        .bytes(bytemuck::cast_slice(&strands.points));
+    strands.pieces.iter().fold(key, |key, piece| {
+        let words = [piece.first_point as u64, piece.curve as u64];
+        let lengths = [piece.length_start_mm, piece.length_mm].map(f64::to_bits);
+        key.bytes(bytemuck::cast_slice(&[words, lengths]))
+    })
 }

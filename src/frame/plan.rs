@@ -45,8 +45,9 @@ impl<'a> Planned<'a> {
         self.seen[fabric].is_none()
     }
 
-    /// Draws of one fabric's strands, fit for the device. What the picture cannot hold is not drawn at all.
-    pub fn draws(&self, fabric: usize, strands: Strands, manner: Manner) -> DrawPlan {
+    /// Draws of the strands of `pieces` pieces of one fabric, fit for the device. What the picture cannot hold is not
+    /// drawn at all.
+    pub fn draws(&self, (fabric, pieces): (usize, u32), strands: Strands, manner: Manner) -> DrawPlan {
         let quality = &self.scene.file.quality;
         let Some(seen) = &self.seen[fabric] else { return DrawPlan::default() };
         let fabric = &self.scene.fabrics[fabric];
@@ -74,7 +75,6 @@ impl<'a> Planned<'a> {
             }
             Strands::Regular => all,
         };
-        let pieces = fabric.strands.pieces.len() as u32;
         DrawPlan::new(pieces, fibers, quality.max_subdivisions, self.is_cpu, quality.patches_per_draw)
     }
 }

@@ -3,11 +3,12 @@
 use super::{Milliseconds, Request, ms};
 use crate::gpu_types::{RADIANCE_MAX, Statistics};
 pub use crate::math::spread::Spread;
+use crate::passes::pipelines::Building;
 use crate::scene::Scene;
 use crate::scene::features::Features;
 use crate::vulkan::{Device, Taken};
 use serde::Serialize;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -47,10 +48,22 @@ pub struct Stats {
     pub passes: Milliseconds,
     /// How `passes` was timed.
     pub timing_method: Option<&'static str>,
+    /// Loading the scene's fabrics: reading, finding out the unit, making yarns ready, and the upload.
+    pub load_ms: Milliseconds,
     /// Work done once before the first picture.
     pub precompute_ms: Milliseconds,
+    /// What of that was read from the cache.
+    pub precompute_from_cache: BTreeSet<String>,
+    /// Time that building pipelines took.
+    pub pipelines_ms: f64,
+    /// Pipelines built.
+    pub pipelines_built: u64,
+    /// What the driver was given of an earlier run, in bytes; none where nothing was kept.
+    pub pipelines_from_cache_bytes: Option<u64>,
     /// Device memory by name.
     pub gpu_bytes: BTreeMap<String, u64>,
+    /// The most memory that the process held so far, what a CPU device holds included; where the system says it.
+    pub host_peak_bytes: Option<u64>,
     /// What the scene does not need, and why.
     pub left_out: BTreeMap<String, String>,
     /// Bytes of device memory that it would take, where it is more than code.
@@ -86,8 +99,14 @@ impl Stats {
             device_ms: None,
             passes: BTreeMap::new(),
             timing_method: None,
+            load_ms: load_ms(scene),
             precompute_ms: BTreeMap::new(),
+            precompute_from_cache: BTreeSet::new(),
+            pipelines_ms: 0.0,
+            pipelines_built: 0,
+            pipelines_from_cache_bytes: None,
             gpu_bytes: BTreeMap::new(),
+            host_peak_bytes: None,
             left_out: BTreeMap::new(),
             left_out_bytes: BTreeMap::new(),
             left_out_of_frame: BTreeMap::new(),
@@ -97,8 +116,27 @@ impl Stats {
         }
     }
 
-    pub(super) fn add_precompute(&mut self, name: &str, taken: Duration) {
+    /// Takes note of a table; where several fabrics have one, it is from the cache if all are.
+    pub(super) fn add_precompute(&mut self, name: &str, taken: Duration, from_cache: bool) {
+        let first = !self.precompute_ms.contains_key(name);
         *self.precompute_ms.entry(name.to_owned()).or_default() += ms(taken);
+        if !from_cache {
+            self.precompute_from_cache.remove(name);
+        } else if first {
+            self.precompute_from_cache.insert(name.to_owned());
+        }
+    }
+
+    /// Takes note of the upload of a fabric.
+    pub(super) fn add_upload(&mut self, taken: Duration) {
+        *self.load_ms.entry("upload".to_owned()).or_default() += ms(taken);
+    }
+
+    /// Takes note of the pipelines.
+    pub(super) fn set_pipelines(&mut self, building: Building, found_bytes: Option<u64>) {
+        self.pipelines_ms = ms(building.taken);
+        self.pipelines_built = building.count;
+        self.pipelines_from_cache_bytes = found_bytes;
     }
 
     /// Takes note of what a fabric of these features leaves out; `saved` knows the bytes.
@@ -165,6 +203,17 @@ impl Stats {
     }
 }
 
+/// What loading each of a scene's fabrics took, together.
+fn load_ms(scene: &Scene) -> Milliseconds {
+    let mut sums = Milliseconds::new();
+    for load in scene.fabrics.iter().map(|fabric| fabric.load) {
+        for (what, taken) in [("read", load.read), ("unit", load.unit), ("yarns", load.yarns)] {
+            *sums.entry(what.to_owned()).or_default() += ms(taken);
+        }
+    }
+    sums
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -219,8 +268,14 @@ mod tests {
                 device_ms: None,
                 passes: BTreeMap::new(),
                 timing_method: None,
+                load_ms: BTreeMap::new(),
                 precompute_ms: BTreeMap::new(),
+                precompute_from_cache: BTreeSet::new(),
+                pipelines_ms: 0.0,
+                pipelines_built: 0,
+                pipelines_from_cache_bytes: None,
                 gpu_bytes: BTreeMap::new(),
+                host_peak_bytes: None,
                 left_out: BTreeMap::new(),
                 left_out_bytes: BTreeMap::new(),
                 left_out_of_frame: BTreeMap::new(),

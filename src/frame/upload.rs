@@ -2,10 +2,11 @@
 
 use super::Request;
 use super::bake::Bakes;
+use super::packing::{self, Part};
 use super::textures;
-use crate::gpu_types::{ControlPoint, Fiber, Frame, LENGTH_STRIPE, Segment, Yarn};
+use crate::gpu_types::{ControlPoint, Fiber, Frame, Yarn};
 use crate::math::frame::octahedral_from_normal;
-use crate::passes::fiber_sets::FabricBuffers;
+use crate::passes::fiber_sets::{FabricBuffers, SharedBuffers};
 use crate::precompute::chord_shadow::Plies;
 use crate::precompute::environment::{Environment, project_environment};
 use crate::precompute::occlusion_fit::OcclusionFit;
@@ -16,10 +17,8 @@ use crate::scene::{Fabric, Scene};
 use crate::vulkan::{Buffer, Device, VulkanError, vk};
 use crate::yarn::detail::slot_stride;
 use crate::yarn::fetch::period_seed;
-use crate::yarn::fiber::Turns;
 use crate::yarn::flyaway::Flyaways;
 use crate::yarn::params::Spread;
-use crate::yarn::strand::Piece;
 use crate::yarn::table;
 use glam::{DMat4, DVec3, DVec4};
 use half::f16;
@@ -37,32 +36,6 @@ pub fn control_points(fabric: &Fabric, origin_mm: DVec3) -> Vec<ControlPoint> {
     strands.points.iter().zip(&strands.normals).zip(&tangents).map(point).collect()
 }
 
-/// One piece with its turns reduced in f64.
-fn segment(piece: &Piece, migration_period_count: u32) -> Segment {
-    let reduced = |turns: Turns| turns.start.rem_euclid(1.0) as f32;
-    let turns = &piece.turns;
-    Segment {
-        first_point: piece.first_point as u32,
-        curve: piece.curve as u32,
-        migration_period: turns.migration.start.floor() as i32,
-        migration_period_count,
-        ply_turns: reduced(turns.ply),
-        fiber_turns: reduced(turns.fiber),
-        migration_turns: reduced(turns.migration),
-        length_start: piece.length_start_mm.rem_euclid(f64::from(LENGTH_STRIPE)) as f32,
-        ply_turns_delta: turns.ply.delta as f32,
-        fiber_turns_delta: turns.fiber.delta as f32,
-        migration_turns_delta: turns.migration.delta as f32,
-        length_mm: piece.length_mm as f32,
-    }
-}
-
-/// All pieces of a fabric.
-pub fn segments(fabric: &Fabric) -> Vec<Segment> {
-    let strands = &fabric.strands;
-    strands.pieces.iter().map(|piece| segment(piece, strands.period_counts[piece.curve])).collect()
-}
-
 /// The fibers of a cross-section.
 pub fn fibers(cross_section: &[table::Fiber]) -> Vec<Fiber> {
     let fiber = |f: &table::Fiber| Fiber {
@@ -74,8 +47,14 @@ pub fn fibers(cross_section: &[table::Fiber]) -> Vec<Fiber> {
     cross_section.iter().map(fiber).collect()
 }
 
-/// What all yarns of a fabric share.
-pub fn yarn(fabric: &Fabric, quality: &QualityTable, bakes: &Bakes, first_piece: u32, seed: u64) -> Yarn {
+/// What all yarns of a fabric share, for `segment_count` pieces after `first_piece` others.
+fn yarn(
+    fabric: &Fabric,
+    quality: &QualityTable,
+    bakes: &Bakes,
+    [first_piece, segment_count]: [u32; 2],
+    seed: u64,
+) -> Yarn {
     let core = bakes.core.as_ref();
     let params = &fabric.yarn;
     let flyaways = Flyaways::new(params);
@@ -104,7 +83,7 @@ pub fn yarn(fabric: &Fabric, quality: &QualityTable, bakes: &Bakes, first_piece:
         fiber_radius: params.fiber_radius_mm() as f32,
         outer_radius: params.outer_radius_mm() as f32,
         max_subdivisions: quality.max_subdivisions,
-        segment_count: fabric.strands.pieces.len() as u32,
+        segment_count,
         seed: period_seed(seed),
         loop_probability: flyaways.loop_probability as f32,
         loop_radius_mean,
@@ -210,7 +189,8 @@ pub struct FabricBakes<'a> {
 }
 
 /// Uploads a fabric whose pieces come after `first_piece` others, once: what was baked and nothing in its place where
-/// nothing was.
+/// nothing was. In parts that storage buffers have room for, each with its number of pieces; all but control points,
+/// pieces and curves is theirs together.
 ///
 /// # Errors
 /// Those of the device.
@@ -220,32 +200,46 @@ pub fn fabric_buffers(
     fabric: &Fabric,
     baked: &FabricBakes<'_>,
     first_piece: u32,
-) -> Result<FabricBuffers, VulkanError> {
-    let FabricBakes { cross_section, bakes, skies } = *baked;
-    let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+) -> Result<Vec<(FabricBuffers, u32)>, VulkanError> {
+    let shared = shared_buffers(device, baked)?;
     let points = control_points(fabric, scene.origin_mm);
-    let yarn = yarn(fabric, &scene.file.quality, bakes, first_piece, scene.file.seed);
+    let quality = &scene.file.quality;
+    let upload = |part: &Part| -> Result<_, VulkanError> {
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let strands = &fabric.strands;
+        let count = part.pieces.len() as u32;
+        let counts = [first_piece + part.pieces.start as u32, count];
+        let yarn = yarn(fabric, quality, baked.bakes, counts, scene.file.seed);
+        let sky = |skies: &[[f16; 4]]| Buffer::upload(device, "skies", usage, &skies[part.points.clone()]);
+        let pieces = packing::pieces(strands, part);
+        let buffers = FabricBuffers {
+            control_points: Buffer::upload(device, "control points", usage, &points[part.points.clone()])?,
+            pieces: Buffer::upload(device, "yarn pieces", usage, &pieces)?,
+            curves: Buffer::upload(device, "curves", usage, &packing::curves(strands, part))?,
+            yarn: Buffer::upload(device, "yarn parameters", usage, &[yarn])?,
+            skies: baked.skies.map(sky).transpose()?,
+            shared: shared.clone(),
+        };
+        Ok((buffers, count))
+    };
+    packing::parts(&fabric.strands, quality.points_per_buffer as usize).iter().map(upload).collect()
+}
+
+fn shared_buffers(device: &Arc<Device>, baked: &FabricBakes<'_>) -> Result<SharedBuffers, VulkanError> {
+    let FabricBakes { cross_section, bakes, .. } = *baked;
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
     let scattering =
         |table: &ScatteringTable| Buffer::upload(device, "scattering table", usage, &table.values);
-    let sky = |skies: &[[f16; 4]]| Buffer::upload(device, "skies", usage, skies);
-    Ok(FabricBuffers {
-        control_points: Buffer::upload(device, "control points", usage, &points)?,
-        segments: Buffer::upload(device, "yarn segments", usage, &segments(fabric))?,
+    let (self_shadow, occlusion) = (bakes.self_shadow.as_ref(), bakes.occlusion_texture.as_ref());
+    let chords = bakes.chord_shadow.as_ref();
+    Ok(SharedBuffers {
         fibers: Buffer::upload(device, "fibers", usage, &fibers(cross_section))?,
-        yarn: Buffer::upload(device, "yarn parameters", usage, &[yarn])?,
         core: bakes.core.as_ref().map(|core| textures::core_images(device, core)).transpose()?,
         scattering: bakes.scattering.as_ref().map(scattering).transpose()?,
-        self_shadow: bakes
-            .self_shadow
-            .as_ref()
-            .map(|t| textures::self_shadow_image(device, t))
-            .or_else(|| bakes.chord_shadow.as_ref().map(|t| textures::chord_shadow_image(device, t)))
+        self_shadow: self_shadow
+            .map(|table| textures::self_shadow_image(device, table))
+            .or_else(|| chords.map(|table| textures::chord_shadow_image(device, table)))
             .transpose()?,
-        occlusion: bakes
-            .occlusion_texture
-            .as_ref()
-            .map(|t| textures::occlusion_image(device, t))
-            .transpose()?,
-        skies: skies.map(sky).transpose()?,
+        occlusion: occlusion.map(|table| textures::occlusion_image(device, table)).transpose()?,
     })
 }

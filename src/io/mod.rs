@@ -1,12 +1,14 @@
-//! Bytes to and from plain data: yarn files, pictures.
+//! Bytes to and from plain data: yarn files, pictures, and what is kept between runs.
 
 pub mod bcc;
+pub mod cache;
 pub mod curves;
 pub mod environment;
 pub mod error;
 pub mod fiber_bcc;
 pub mod fiber_runs;
 pub mod fiber_usda;
+pub mod kept;
 pub mod measured;
 pub mod obj;
 pub mod picture;

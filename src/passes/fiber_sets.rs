@@ -27,7 +27,7 @@ const FRAME_BINDINGS: [(u32, vk::DescriptorType, Option<Need>); 5] = [
     (4, TEXTURE, Some(Need::ShadowMap)),
 ];
 /// Set 1.
-const FABRIC_BINDINGS: [(u32, vk::DescriptorType, Option<Need>); 11] = [
+const FABRIC_BINDINGS: [(u32, vk::DescriptorType, Option<Need>); 12] = [
     (0, STORAGE, None),
     (1, STORAGE, None),
     (2, STORAGE, None),
@@ -39,18 +39,30 @@ const FABRIC_BINDINGS: [(u32, vk::DescriptorType, Option<Need>); 11] = [
     (8, TEXTURE, Some(Need::SelfShadowTable)),
     (9, TEXTURE, Some(Need::OcclusionTexture)),
     (10, STORAGE, Some(Need::Skies)),
+    (11, STORAGE, None),
 ];
 
-/// What one fabric's shaders read, in the order of set 1's bindings.
+/// What the shaders of one fabric, or of a part of it, read: set 1.
 pub struct FabricBuffers {
     /// [`crate::gpu_types::ControlPoint`]s.
     pub control_points: Buffer,
-    /// [`crate::gpu_types::Segment`]s.
-    pub segments: Buffer,
-    /// [`crate::gpu_types::Fiber`]s.
-    pub fibers: Buffer,
+    /// [`crate::gpu_types::Piece`]s, and one behind them.
+    pub pieces: Buffer,
+    /// [`crate::gpu_types::Curve`]s.
+    pub curves: Buffer,
     /// One [`crate::gpu_types::Yarn`].
     pub yarn: Buffer,
+    /// What is open of the sky at each control point: four halves.
+    pub skies: Option<Buffer>,
+    /// What all parts of a fabric read.
+    pub shared: SharedBuffers,
+}
+
+/// What does not depend on where a fabric's yarns lie.
+#[derive(Clone)]
+pub struct SharedBuffers {
+    /// [`crate::gpu_types::Fiber`]s.
+    pub fibers: Buffer,
     /// The core texture: normals, shape and spread.
     pub core: Option<[Image; 3]>,
     /// The physical model's tables, R and then TT: four floats an entry.
@@ -59,8 +71,6 @@ pub struct FabricBuffers {
     pub self_shadow: Option<Image>,
     /// Ambient light over the yarn's cross-section.
     pub occlusion: Option<Image>,
-    /// What is open of the sky at each control point: four halves.
-    pub skies: Option<Buffer>,
 }
 
 /// What all shaders read of one frame, in the order of set 0's bindings.
@@ -127,7 +137,7 @@ pub struct FabricSamplers {
 
 impl FabricSamplers {
     /// Makes those that this fabric reads by.
-    fn make(&mut self, device: &Arc<Device>, buffers: &FabricBuffers) -> Result<(), VulkanError> {
+    fn make(&mut self, device: &Arc<Device>, buffers: &SharedBuffers) -> Result<(), VulkanError> {
         if buffers.core.is_some() && self.core.is_none() {
             // Along the core the texture tiles.
             let [repeat, clamp] = [vk::SamplerAddressMode::REPEAT, vk::SamplerAddressMode::CLAMP_TO_EDGE];
@@ -150,19 +160,21 @@ impl FabricSamplers {
         layout: &DescriptorLayout,
         buffers: &FabricBuffers,
     ) -> Result<DescriptorSet, VulkanError> {
-        self.make(device, buffers)?;
+        let shared = &buffers.shared;
+        self.make(device, shared)?;
         let mut resources = vec![
             (0, Resource::Storage(&buffers.control_points)),
-            (1, Resource::Storage(&buffers.segments)),
-            (2, Resource::Storage(&buffers.fibers)),
+            (1, Resource::Storage(&buffers.pieces)),
+            (2, Resource::Storage(&shared.fibers)),
             (3, Resource::Storage(&buffers.yarn)),
+            (11, Resource::Storage(&buffers.curves)),
         ];
-        if let Some((core, sampler)) = buffers.core.as_ref().zip(self.core.as_ref()) {
+        if let Some((core, sampler)) = shared.core.as_ref().zip(self.core.as_ref()) {
             resources.extend((4..).zip(core.iter().map(|image| Resource::Sampled(image.view(), sampler))));
         }
-        let tables = [(7, &buffers.scattering), (10, &buffers.skies)];
+        let tables = [(7, &shared.scattering), (10, &buffers.skies)];
         resources.extend(tables.into_iter().filter_map(|(i, b)| Some((i, Resource::Storage(b.as_ref()?)))));
-        for (binding, image) in [(8, &buffers.self_shadow), (9, &buffers.occlusion)] {
+        for (binding, image) in [(8, &shared.self_shadow), (9, &shared.occlusion)] {
             let read = image.as_ref().zip(self.table.as_ref());
             resources.extend(read.map(|(image, table)| (binding, Resource::Sampled(image.view(), table))));
         }

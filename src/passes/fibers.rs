@@ -2,14 +2,15 @@
 
 use super::draw_plan::DrawPlan;
 use super::fiber_sets::{FabricBuffers, FabricSamplers, FrameBuffers, fabric_layout, frame_set};
+use super::pipelines::Pipelines;
 use super::strand_pipeline::{Manner, Strands, strand_pipeline};
 use super::targets::Targets;
 use crate::graph::{Pass, Use};
 use crate::scene::features::Features;
 use crate::shaders::ShaderSet;
 use crate::vulkan::{
-    Access, ColorTarget, Commands, DepthTarget, DescriptorLayout, DescriptorSet, Device, Image, ImageState,
-    Pipeline, Rendering, VulkanError, vk,
+    Access, ColorTarget, Commands, DepthTarget, DescriptorLayout, DescriptorSet, Image, ImageState, Pipeline,
+    Rendering, VulkanError, vk,
 };
 use std::collections::HashMap;
 use std::ops::Range;
@@ -29,7 +30,7 @@ struct FabricDraw {
 
 /// The pass: layouts, pipelines by features, and what is drawn.
 pub struct FibersPass {
-    device: Arc<Device>,
+    built: Arc<Pipelines>,
     shaders: ShaderSet,
     frame_layout: DescriptorLayout,
     frame: FrameBuffers,
@@ -48,14 +49,14 @@ impl FibersPass {
     /// # Errors
     /// Those of the device; buffers that no feature asks for, or that are missing.
     pub fn new(
-        device: &Arc<Device>,
+        pipelines: &Arc<Pipelines>,
         frame: FrameBuffers,
         features: &[Features],
         samples: vk::SampleCountFlags,
     ) -> Result<Self, VulkanError> {
-        let (frame_layout, frame_set) = frame_set(device, &frame, features)?;
+        let (frame_layout, frame_set) = frame_set(pipelines.device(), &frame, features)?;
         Ok(Self {
-            device: device.clone(),
+            built: pipelines.clone(),
             shaders: ShaderSet::default(),
             frame_layout,
             frame,
@@ -92,12 +93,12 @@ impl FibersPass {
         let alike = self.fabrics.iter().find(|(other, ..)| *other == features);
         let layout = match alike {
             Some((_, layout, _)) => layout.clone(),
-            None => fabric_layout(&self.device, &features)?,
+            None => fabric_layout(self.built.device(), &features)?,
         };
-        let set = self.samplers.fabric_set(&self.device, &layout, buffers)?;
+        let set = self.samplers.fabric_set(self.built.device(), &layout, buffers)?;
         let fabric = self.fabrics.len();
         self.fabrics.push((features, layout.clone(), set));
-        // Cores first: what lies behind them is then never shaded.
+        // Cores first, those of all fabrics: what lies behind them is then never shaded.
         let drawn = [
             (Strands::Core, Manner::AtPixels, features.core_fibers_drawn),
             (Strands::Regular, Manner::AtPixels, features.regular_fibers),
@@ -108,6 +109,7 @@ impl FibersPass {
             let plan = DrawPlan::default();
             self.draws.push(FabricDraw { pipeline: None, features, fabric, strands, manner, plan });
         }
+        self.draws.sort_by_key(|draw| draw.strands != Strands::Core);
         Ok(())
     }
 
@@ -128,8 +130,10 @@ impl FibersPass {
                 None => {
                     let what = (draw.strands, draw.manner);
                     let layouts = [&self.frame_layout, &self.fabrics[draw.fabric].1];
-                    let (device, shaders, features) = (&self.device, &self.shaders, &draw.features);
-                    strand_pipeline(device, shaders, features, what, self.samples, &layouts)?
+                    let (shaders, features) = (&self.shaders, &draw.features);
+                    let build =
+                        || strand_pipeline(&self.built, shaders, features, what, self.samples, &layouts);
+                    self.built.timed(build)?
                 }
             };
             self.pipelines.insert(key, built.clone());

@@ -1,13 +1,13 @@
 //! A compute pass from one image to another, pixel by pixel.
 
+use super::pipelines::Pipelines;
 use super::spirv;
 use super::targets::groups;
 use crate::vulkan::{
-    Binding, Commands, ComputePipelineInfo, DescriptorLayout, DescriptorSet, Device, Image, Pipeline,
-    Resource, SpecializationConstants, VulkanError, vk,
+    Binding, Commands, ComputePipelineInfo, DescriptorLayout, DescriptorSet, Image, Pipeline, Resource,
+    SpecializationConstants, VulkanError, vk,
 };
 use bytemuck::Pod;
-use std::sync::Arc;
 
 /// A kernel with two storage images (bindings 0 and 1 of set 0), push constants, and work groups of
 /// 8 x 8 pixels.
@@ -23,7 +23,7 @@ impl ImageKernel {
     /// # Errors
     /// Those of the device.
     pub fn new(
-        device: &Arc<Device>,
+        pipelines: &Pipelines,
         name: &str,
         shader: &str,
         constants: &SpecializationConstants,
@@ -35,16 +35,16 @@ impl ImageKernel {
             kind: vk::DescriptorType::STORAGE_IMAGE,
             stages: vk::ShaderStageFlags::COMPUTE,
         };
-        let layout = DescriptorLayout::new(device, name, &[binding(0), binding(1)])?;
+        let layout = DescriptorLayout::new(pipelines.device(), name, &[binding(0), binding(1)])?;
         let info = ComputePipelineInfo {
             name,
             spirv: spirv(shader)?,
             constants,
             set_layouts: &[&layout],
             push_constant_bytes: push_constant_bytes as u32,
-            cache: None,
+            cache: pipelines.cache(),
         };
-        let pipeline = Pipeline::compute(device, &info)?;
+        let pipeline = pipelines.timed(|| Pipeline::compute(pipelines.device(), &info))?;
         let [a, b] = images.map(|image| Resource::StorageImage(image.view()));
         let set = DescriptorSet::new(&layout, name, &[(0, a), (1, b)])?;
         let [width, height, _] = images[0].extent();

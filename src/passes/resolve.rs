@@ -1,11 +1,11 @@
 //! Adds a jittered frame to the picture.
 
 use super::image_kernel::ImageKernel;
+use super::pipelines::Pipelines;
 use super::targets::Targets;
 use crate::graph::{Pass, Use};
-use crate::vulkan::{Device, ImageState, SpecializationConstants, VulkanError};
+use crate::vulkan::{ImageState, SpecializationConstants, VulkanError};
 use bytemuck::{Pod, Zeroable};
-use std::sync::Arc;
 
 /// Push constants of `glsl/passes/resolve.comp`.
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -26,10 +26,10 @@ impl ResolvePass {
     ///
     /// # Errors
     /// Those of the device.
-    pub fn new(device: &Arc<Device>, targets: &Targets) -> Result<Self, VulkanError> {
+    pub fn new(pipelines: &Pipelines, targets: &Targets) -> Result<Self, VulkanError> {
         let images = [&targets.frame, &targets.picture];
         let (shader, none) = ("passes/resolve.comp", SpecializationConstants::new());
-        let kernel = ImageKernel::new(device, "resolve", shader, &none, images, size_of::<Constants>())?;
+        let kernel = ImageKernel::new(pipelines, "resolve", shader, &none, images, size_of::<Constants>())?;
         Ok(Self { kernel })
     }
 

@@ -1,5 +1,6 @@
 //! Draws every yarn as a ribbon of its outer radius as each light sees it (Wu & Yuksel 2019, Sec. 4.1).
 
+use super::pipelines::Pipelines;
 use super::spirv;
 use super::strand_pipeline::{Manner, specialization};
 use super::targets::DEPTH_FORMAT;
@@ -93,7 +94,7 @@ impl ShadowMapPass {
     /// Those of the device.
     pub fn add_fabric(
         &mut self,
-        device: &Arc<Device>,
+        pipelines: &Pipelines,
         features: &Features,
         layouts: &[&DescriptorLayout; 2],
         sets: [&DescriptorSet; 2],
@@ -101,7 +102,7 @@ impl ShadowMapPass {
     ) -> Result<(), VulkanError> {
         let pipeline = match self.pipelines.get(&features.basis) {
             Some(pipeline) => pipeline.clone(),
-            None => pipeline(device, features, layouts)?,
+            None => pipelines.timed(|| pipeline(pipelines, features, layouts))?,
         };
         self.pipelines.insert(features.basis, pipeline.clone());
         self.frame_set = Some(sets[0].clone());
@@ -147,7 +148,7 @@ impl ShadowMapPass {
 }
 
 fn pipeline(
-    device: &Arc<Device>,
+    pipelines: &Pipelines,
     features: &Features,
     layouts: &[&DescriptorLayout; 2],
 ) -> Result<Pipeline, VulkanError> {
@@ -161,7 +162,7 @@ fn pipeline(
     let stages =
         stages.each_ref().map(|(stage, spirv)| ShaderStage { stage: *stage, spirv, constants: &constants });
     Pipeline::graphics(
-        device,
+        pipelines.device(),
         &GraphicsPipelineInfo {
             name: "shadow map",
             stages: &stages,
@@ -176,6 +177,7 @@ fn pipeline(
             samples: one,
             set_layouts: layouts,
             push_constant_bytes: size_of::<Constants>() as u32,
+            cache: pipelines.cache(),
             ..Default::default()
         },
     )

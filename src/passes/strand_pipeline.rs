@@ -1,14 +1,14 @@
 //! Pipelines that expand yarn into strands: core fibers or single ones.
 
 use super::found;
+use super::pipelines::Pipelines;
 use super::targets::{DEPTH_FORMAT, RADIANCE_FORMAT};
 use crate::scene::features::Features;
 use crate::shaders::ShaderSet;
 use crate::vulkan::{
-    DepthState, DescriptorLayout, Device, GraphicsPipelineInfo, Pipeline, ShaderStage,
-    SpecializationConstants, VulkanError, trimmed, vk,
+    DepthState, DescriptorLayout, GraphicsPipelineInfo, Pipeline, ShaderStage, SpecializationConstants,
+    VulkanError, trimmed, vk,
 };
-use std::sync::Arc;
 
 /// How strands are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -64,7 +64,7 @@ impl Strands {
 /// # Errors
 /// Those of the device.
 pub fn strand_pipeline(
-    device: &Arc<Device>,
+    pipelines: &Pipelines,
     shaders: &ShaderSet,
     features: &Features,
     (strands, manner): (Strands, Manner),
@@ -82,7 +82,7 @@ pub fn strand_pipeline(
         .map(|(stage, spirv)| ShaderStage { stage: *stage, spirv, constants: &constants })
         .collect();
     Pipeline::graphics(
-        device,
+        pipelines.device(),
         &GraphicsPipelineInfo {
             name: match (strands, manner) {
                 (Strands::Core, _) => "core fibers",
@@ -102,6 +102,7 @@ pub fn strand_pipeline(
             }),
             samples,
             set_layouts: layouts,
+            cache: pipelines.cache(),
             ..Default::default()
         },
     )

@@ -13,5 +13,6 @@ pub mod scattering_table;
 pub mod self_shadow;
 pub mod shadow_radius;
 pub mod sky;
+pub mod stored;
 pub mod table;
 pub mod table_error;

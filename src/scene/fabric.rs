@@ -18,6 +18,7 @@ use crate::yarn::presets;
 use crate::yarn::strand::{MOST_MIGRATIONS, Strands, strands};
 use glam::DVec3;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 /// A loaded fabric.
 #[derive(Clone, Debug)]
@@ -34,6 +35,19 @@ pub struct Fabric {
     pub mm_per_unit: f64,
     /// What a user should know of how the file was read, one line each.
     pub notes: Vec<String>,
+    /// How long it took to make.
+    pub load: LoadTimes,
+}
+
+/// What making a fabric of a file took.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LoadTimes {
+    /// Reading, checking and repairing the file.
+    pub read: Duration,
+    /// Finding out its unit.
+    pub unit: Duration,
+    /// Making its yarns ready to carry fibers: lengths, turns, frames.
+    pub yarns: Duration,
 }
 
 impl Fabric {
@@ -52,7 +66,12 @@ impl Fabric {
             let message = "fabric.model: expected a yarn file, found none".to_owned();
             return Err(SceneError::Value { scene: scene.to_owned(), message });
         }
-        Self::from_loaded(file, table, load_yarn_file(&folder.join(&table.model))?, scene)
+        let started = Instant::now();
+        let loaded = load_yarn_file(&folder.join(&table.model))?;
+        let read = started.elapsed();
+        let mut fabric = Self::from_loaded(file, table, loaded, scene)?;
+        fabric.load.read = read;
+        Ok(fabric)
     }
 
     /// The same for curves that are already there.
@@ -72,6 +91,7 @@ impl Fabric {
 
         let mut notes = loaded.notes.clone();
         notes.extend(summarize_repairs(&loaded.repairs));
+        let started = Instant::now();
         let mm_per_unit = match table.mm_per_unit {
             Some(given) => given,
             None => matched_scale(&loaded, &preset, &mut notes),
@@ -79,10 +99,13 @@ impl Fabric {
         if !(1e-9..=1e9).contains(&mm_per_unit) {
             return Err(value(format!("fabric.mm_per_unit = {mm_per_unit}: allowed is 1e-9 to 1e9")));
         }
+        let unit = started.elapsed();
+        let started = Instant::now();
         let curves = world_curves(&loaded, mm_per_unit);
         let strands = strands(&curves, loaded.curves.basis, &yarn, file.seed);
         check_turns(&strands).map_err(|message| value(format!("{}: {message}", table.model)))?;
-        Ok(Self { name: table.model.clone(), yarn, fiber, strands, mm_per_unit, notes })
+        let load = LoadTimes { unit, yarns: started.elapsed(), ..Default::default() };
+        Ok(Self { name: table.model.clone(), yarn, fiber, strands, mm_per_unit, notes, load })
     }
 
     /// Positions that the picture must hold: the Bezier control points of every piece, in mm.
@@ -98,7 +121,15 @@ impl Fabric {
         let strands =
             strands(&[Curve { points, closed: false }], crate::math::curve::Basis::CatmullRom, &yarn, 0);
         let fiber = fiber_presets::fiber(fiber_presets::DEFAULT_FIBER).unwrap();
-        Self { name: "test".into(), yarn, fiber, strands, mm_per_unit: 1.0, notes: Vec::new() }
+        Self {
+            name: "test".into(),
+            yarn,
+            fiber,
+            strands,
+            mm_per_unit: 1.0,
+            notes: Vec::new(),
+            load: LoadTimes::default(),
+        }
     }
 }
 

@@ -192,6 +192,8 @@ pub struct QualityTable {
     pub patches_per_draw: Option<u32>,
     /// Fiber curves handed to the device at once, at least 1: between them a user hears of progress.
     pub curves_per_submission: u64,
+    /// Control points of a fabric in one buffer: the rest goes into another one.
+    pub points_per_buffer: u32,
 }
 
 impl Default for QualityTable {
@@ -211,6 +213,7 @@ impl Default for QualityTable {
             max_subdivisions: 32,
             patches_per_draw: None,
             curves_per_submission: 2_000_000,
+            points_per_buffer: 4 << 20,
         }
     }
 }

@@ -66,6 +66,8 @@ impl SceneFile {
         range("shading.extinction_scale", self.shading.extinction_scale, 0.0, 1e3)?;
         self.shadow.check()?;
         range("quality.max_subdivisions", f64::from(self.quality.max_subdivisions), 1.0, 64.0)?;
+        // 16 bytes each: below 128 MiB.
+        range("quality.points_per_buffer", f64::from(self.quality.points_per_buffer), 4.0, 8e6)?;
         range("quality.patches_per_draw", f64::from(self.quality.patches_per_draw.unwrap_or(1)), 1.0, 1e9)
     }
 

@@ -12,6 +12,7 @@ pub mod inside;
 pub mod level;
 pub mod migrated_density;
 pub mod migration;
+pub mod packed;
 pub mod params;
 pub mod period;
 pub mod pose;

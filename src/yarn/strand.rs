@@ -6,6 +6,7 @@ use super::transport::{close_normals, knot_normals};
 use crate::math::curve::{Basis, Curve, arc_length, bezier_from_basis};
 use crate::math::rng::Rng;
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// Migrations after which the periods of an open curve count from 0 again, their random identities with them: with
 /// up to 64 periods to each, four numbers a period fit 32 bits. A closed curve may have no more.
@@ -24,6 +25,17 @@ pub struct Piece {
     pub length_mm: f64,
     /// Rotations at its start and over it.
     pub turns: PieceTurns,
+}
+
+/// Turns along one curve: plies, fibers and migration.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CurveTurns {
+    /// Turns at its start, in [0, 1).
+    pub phases: [f64; 3],
+    /// Turns per mm.
+    pub rates: [f64; 3],
+    /// Its rest length.
+    pub length_mm: f64,
 }
 
 /// All yarns of a fabric, ready to carry fibers.
@@ -45,6 +57,8 @@ pub struct Strands {
     /// For each curve, how many migrations of the fibers' radius it closes after; an open one [`MOST_MIGRATIONS`]
     /// where it has more than that, and 0 where it has not.
     pub period_counts: Vec<u32>,
+    /// What the turns of each curve's pieces follow from: all that the device is told of them.
+    pub curves: Vec<CurveTurns>,
 }
 
 impl Strands {
@@ -140,21 +154,50 @@ pub fn strands(curves: &[Curve], basis: Basis, yarn: &YarnParams, seed: u64) -> 
         control_point_count: curves.iter().map(|c| c.points.len()).sum(),
         closed: curves.iter().map(|curve| curve.closed).collect(),
         period_counts: vec![0; curves.len()],
+        curves: vec![CurveTurns::default(); curves.len()],
     };
-    for (index, curve) in curves.iter().enumerate() {
-        if curve.points.len() >= 2 {
-            append(&mut all, index, curve, yarn, seed);
-        }
+    // Some curves at a time: what they are made of is then not held for all of them at once.
+    for (start, some) in (0..).step_by(AT_A_TIME).zip(curves.chunks(AT_A_TIME)) {
+        let made: Vec<_> = some
+            .par_iter()
+            .enumerate()
+            .filter(|(_, curve)| curve.points.len() >= 2)
+            .map(|(k, curve)| (start + k, prepared(start + k, curve, basis, yarn, seed)))
+            .collect();
+        made.into_iter().for_each(|(index, made)| append(&mut all, index, made));
     }
     all
 }
 
-fn append(all: &mut Strands, index: usize, curve: &Curve, yarn: &YarnParams, seed: u64) {
-    let points = window_points(curve, all.basis);
-    let stride = if all.basis == Basis::Bezier { 3 } else { 1 };
+/// Curves that are made ready together.
+const AT_A_TIME: usize = 64;
+
+/// One curve made ready; its pieces count points from its own first.
+struct Prepared {
+    points: Vec<DVec3>,
+    normals: Vec<DVec3>,
+    pieces: Vec<Piece>,
+    period_count: u32,
+    turns: CurveTurns,
+}
+
+fn append(all: &mut Strands, index: usize, made: Prepared) {
+    let first_point = all.points.len();
+    all.pieces.extend(
+        made.pieces.into_iter().map(|piece| Piece { first_point: first_point + piece.first_point, ..piece }),
+    );
+    all.points.extend(made.points);
+    all.normals.extend(made.normals);
+    all.period_counts[index] = made.period_count;
+    all.curves[index] = made.turns;
+}
+
+fn prepared(index: usize, curve: &Curve, basis: Basis, yarn: &YarnParams, seed: u64) -> Prepared {
+    let points = window_points(curve, basis);
+    let stride = if basis == Basis::Bezier { 3 } else { 1 };
     let starts: Vec<usize> = (0..points.len().saturating_sub(3)).step_by(stride).collect();
     let window = |&first: &usize| -> [DVec3; 4] { std::array::from_fn(|k| points[first + k]) };
-    let beziers: Vec<_> = starts.iter().map(|s| bezier_from_basis(&window(s), all.basis)).collect();
+    let beziers: Vec<_> = starts.iter().map(|s| bezier_from_basis(&window(s), basis)).collect();
     let lengths: Vec<f64> = beziers.iter().map(|b| arc_length(b, Basis::Bezier, 0.0, 1.0)).collect();
     let total: f64 = lengths.iter().sum();
 
@@ -164,7 +207,7 @@ fn append(all: &mut Strands, index: usize, curve: &Curve, yarn: &YarnParams, see
     }
     let mut normals = vec![DVec3::X; points.len()];
     for (k, start) in starts.iter().enumerate() {
-        for (offset, knot) in knot_offsets(all.basis).into_iter().zip([k, k + 1]) {
+        for (offset, knot) in knot_offsets(basis).into_iter().zip([k, k + 1]) {
             normals[start + offset] = knots[knot];
         }
     }
@@ -172,11 +215,11 @@ fn append(all: &mut Strands, index: usize, curve: &Curve, yarn: &YarnParams, see
     let rates = rates(yarn, total, curve.closed);
     let migrations = (rates[2] * total).abs();
     let wraps = migrations > f64::from(MOST_MIGRATIONS);
-    if curve.closed {
-        all.period_counts[index] = migrations.round() as u32;
-    } else if wraps {
-        all.period_counts[index] = MOST_MIGRATIONS;
-    }
+    let period_count = match curve.closed {
+        true => migrations.round() as u32,
+        false if wraps => MOST_MIGRATIONS,
+        false => 0,
+    };
     let mut rng = Rng::new(seed, &[index as u64]);
     let phases: [f64; 3] = std::array::from_fn(|_| rng.uniform());
     let wrapped = |turns: Turns| match wraps {
@@ -184,13 +227,14 @@ fn append(all: &mut Strands, index: usize, curve: &Curve, yarn: &YarnParams, see
         false => turns,
     };
     let mut length_start_mm = 0.0;
-    for (start, length_mm) in starts.iter().zip(lengths) {
+    let mut pieces = Vec::with_capacity(starts.len());
+    for (&first_point, length_mm) in starts.iter().zip(lengths) {
         let turns = |which: usize| Turns {
             start: phases[which] + rates[which] * length_start_mm,
             delta: rates[which] * length_mm,
         };
-        all.pieces.push(Piece {
-            first_point: all.points.len() + start,
+        pieces.push(Piece {
+            first_point,
             curve: index,
             length_start_mm,
             length_mm,
@@ -198,8 +242,8 @@ fn append(all: &mut Strands, index: usize, curve: &Curve, yarn: &YarnParams, see
         });
         length_start_mm += length_mm;
     }
-    all.points.extend(points);
-    all.normals.extend(normals);
+    let turns = CurveTurns { phases, rates, length_mm: total };
+    Prepared { points, normals, pieces, period_count, turns }
 }
 
 /// Turns per mm of plies, fibers and migration for one curve.

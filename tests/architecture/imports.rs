@@ -31,6 +31,7 @@ const TABLE: &[(&[&str], May)] = &[
         &["frame"],
         May::Import(&[
             "math",
+            "io",
             "yarn",
             "motion",
             "gpu_types",

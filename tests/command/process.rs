@@ -17,11 +17,14 @@ pub fn swatch() -> String {
 /// A folder that the command runs in and nobody else sees.
 pub struct Workplace {
     folder: TempDir,
+    /// The command's cache: never the user's.
+    cache: TempDir,
 }
 
 impl Workplace {
     pub fn new() -> Self {
-        Self { folder: tempfile::tempdir().expect("the temporary folder is ours to use") }
+        let folder = || tempfile::tempdir().expect("the temporary folder is ours to use");
+        Self { folder: folder(), cache: folder() }
     }
 
     pub fn path(&self, name: &str) -> PathBuf {
@@ -55,17 +58,23 @@ impl Workplace {
 
     /// The command, started with pipes at all its ends.
     pub fn start(&self, arguments: &[&str]) -> Child {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_worsted"));
-        command.current_dir(self.folder.path()).args(arguments);
+        let mut command = self.command();
+        command.args(arguments);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         command.spawn().expect("the command was built with this test")
     }
 
     /// [`Self::run`] with environment variables set.
     pub fn run_with(&self, arguments: &[impl AsRef<OsStr>], environment: &[(&str, &str)]) -> Output {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_worsted"));
-        command.current_dir(self.folder.path()).args(arguments).envs(environment.iter().copied());
+        let mut command = self.command();
+        command.args(arguments).envs(environment.iter().copied());
         command.output().expect("the command was built with this test")
+    }
+
+    fn command(&self) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_worsted"));
+        command.current_dir(self.folder.path()).env("WORSTED_CACHE", self.cache.path());
+        command
     }
 
     /// Every file and folder here with its size, so that nothing is left behind unseen.

@@ -20,6 +20,7 @@ mod khungurn_rows;
 mod khungurn_truth;
 mod light_cases;
 mod math_cases;
+mod packed_cases;
 mod rejects;
 mod scattering_tables;
 mod shading_cases;
@@ -33,6 +34,7 @@ use harness::{Case, Word, compare, twin_of};
 fn cases() -> Vec<Case> {
     let mut all = math_cases::cases();
     all.extend(yarn_cases::cases());
+    all.extend(packed_cases::cases());
     all.push(fiber_case::case());
     all.extend(flyaway_cases::cases());
     all.extend(detail_cases::cases());

@@ -69,7 +69,7 @@ fn draws_strands(shader: &Reflected) -> bool {
 #[test]
 fn bindings_of_the_fiber_shaders_are_those_of_the_pass() {
     let sets = fiber_sets();
-    assert_eq!(sets.iter().map(Vec::len).collect::<Vec<_>>(), [5, 11]);
+    assert_eq!(sets.iter().map(Vec::len).collect::<Vec<_>>(), [5, 12]);
     let mut seen = Vec::new();
     for shader in reflection::all().iter().filter(|shader| draws_strands(shader)) {
         for descriptor in &shader.descriptors {

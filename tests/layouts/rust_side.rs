@@ -1,7 +1,7 @@
 //! The Rust side: layouts of `src/gpu_types.rs` as the compiler has them.
 
 use crate::reflection::{Layout, Member};
-use worsted::gpu_types::{ControlPoint, Fiber, Frame, Light, Segment, ShadowView, Statistics, Yarn};
+use worsted::gpu_types::{ControlPoint, Curve, Fiber, Frame, Light, Piece, ShadowView, Statistics, Yarn};
 
 /// A Rust type's name in GLSL.
 trait Glsl {
@@ -23,6 +23,7 @@ glsl_names! {
     [[f32; 4]; 4] => "mat4", [[f32; 4]; 5] => "vec4[5]",
     [[f32; 4]; 9] => "vec4[9]",
     [f32; 8] => "float[8]",
+    [u32; 2] => "uvec2",
     [u32; 3] => "uint[3]",
 }
 
@@ -51,19 +52,20 @@ macro_rules! layout {
 pub fn layouts() -> Vec<Layout> {
     vec![
         layout!(ControlPoint { position, normal_octahedral }),
-        layout!(Segment {
+        layout!(Piece { length_low, length_high_curve }),
+        layout!(Curve {
             first_point,
             curve,
-            migration_period,
             migration_period_count,
-            ply_turns,
-            fiber_turns,
-            migration_turns,
-            length_start,
-            ply_turns_delta,
-            fiber_turns_delta,
-            migration_turns_delta,
-            length_mm
+            ply_phase,
+            fiber_phase,
+            migration_phase,
+            ply_rate,
+            fiber_rate,
+            migration_rate,
+            stripe_rate,
+            length_mm,
+            padding
         }),
         layout!(Fiber { radius, angle, migration_phase, ply }),
         layout!(Yarn {

@@ -58,16 +58,16 @@ fn every_struct_lies_the_same_on_both_sides() {
 
 #[test]
 fn any_difference_of_layouts_is_named() {
-    let right = rust_side::layouts().into_iter().find(|layout| layout.name == "Segment").expect("listed");
+    let right = rust_side::layouts().into_iter().find(|layout| layout.name == "Curve").expect("listed");
     assert_eq!(differences(&right, &right), Vec::<String>::new());
     type Edit = fn(&mut Layout);
     let edits: [(Edit, &str); 6] = [
-        (|l| l.members[5].offset += 4, "Segment.fiber_turns: at byte 20 in Rust, 24 in GLSL"),
+        (|l| l.members[5].offset += 4, "Curve.migration_phase: at byte 20 in Rust, 24 in GLSL"),
         (|l| l.members[1].name = "strand".into(), "`curve` in Rust, `strand` in GLSL"),
-        (|l| l.members[2].kind = "uint".into(), "Segment.migration_period: int in Rust, uint in GLSL"),
-        (|l| l.stride = 64, "Segment: 48 bytes in Rust, 64 in GLSL"),
+        (|l| l.members[2].kind = "int".into(), "Curve.migration_period_count: uint in Rust, int in GLSL"),
+        (|l| l.stride = 48, "Curve: 64 bytes in Rust, 48 in GLSL"),
         (|l| l.members.truncate(11), "12 members in Rust, 11 in GLSL"),
-        (|l| l.members.swap(4, 5), "`ply_turns` in Rust, `fiber_turns` in GLSL"),
+        (|l| l.members.swap(4, 5), "`fiber_phase` in Rust, `migration_phase` in GLSL"),
     ];
     for (edit, expected) in edits {
         let mut wrong = right.clone();

@@ -35,8 +35,8 @@ fn halved(mut scene: Scene) -> Scene {
     scene
 }
 
-/// The same picture is demanded of draws of any size; `curves` in a yarn of `sets`.
-fn any_draw_size_gives_the_same_picture(curves: &CurveSet, sets: &[&str]) {
+/// The same picture is demanded of draws and buffers of any size; `curves` in a yarn of `sets`.
+fn any_draw_and_buffer_size_gives_the_same_picture(curves: &CurveSet, sets: &[&str]) {
     let fixed = ["camera.distance_mm=32", "camera.target_mm=[0, 0, 0]"];
     let build = |more: &[&str]| scene(curves, &[&fixed, sets, more].concat());
     let reference = draw(build(&[]), SMALL, 4).linear;
@@ -45,6 +45,11 @@ fn any_draw_size_gives_the_same_picture(curves: &CurveSet, sets: &[&str]) {
         println!("{cap} patches a draw: {} pixels differ", differing(&picture, &reference));
         assert_eq!(difference(&picture, &reference), None, "{cap} patches a draw");
     }
+    for points in [5, 50, 400] {
+        let picture = draw(build(&[&format!("quality.points_per_buffer={points}")]), SMALL, 4).linear;
+        println!("{points} points a buffer: {} pixels differ", differing(&picture, &reference));
+        assert_eq!(difference(&picture, &reference), None, "{points} points a buffer");
+    }
     for (what, wrong) in [("half the yarn", halved(build(&[]))), ("another seed", build(&["seed=2"]))] {
         let picture = draw(wrong, SMALL, 4).linear;
         assert!(difference(&picture, &reference).is_some(), "{what} is not seen");
@@ -52,21 +57,24 @@ fn any_draw_size_gives_the_same_picture(curves: &CurveSet, sets: &[&str]) {
 }
 
 #[test]
-fn the_size_of_draws_does_not_change_a_swatch() {
-    any_draw_size_gives_the_same_picture(&swatch(), &["yarn.fibers_per_ply=40"]);
+fn the_size_of_draws_and_buffers_does_not_change_a_swatch() {
+    any_draw_and_buffer_size_gives_the_same_picture(&swatch(), &["yarn.fibers_per_ply=40"]);
 }
 
 #[test]
-fn the_size_of_draws_does_not_change_a_yarn_of_many_fibers() {
+fn the_size_of_draws_and_buffers_does_not_change_a_yarn_of_many_fibers() {
     // 3200 fibers, 50 instances of 64, are beyond the CPU device's 65,536 vertices in a few patches.
-    any_draw_size_gives_the_same_picture(&hook(), &["yarn.ply_count=8", "yarn.fibers_per_ply=400"]);
+    any_draw_and_buffer_size_gives_the_same_picture(
+        &hook(),
+        &["yarn.ply_count=8", "yarn.fibers_per_ply=400"],
+    );
 }
 
 #[test]
 fn any_number_of_fibers_is_drawn_the_same_however_it_is_split() {
     for fibers in [1, 20, 64, 65, 150] {
         let sets = [format!("yarn.fibers_per_ply={fibers}"), "yarn.ply_count=2".to_owned()];
-        any_draw_size_gives_the_same_picture(&hook(), &[sets[0].as_str(), sets[1].as_str()]);
+        any_draw_and_buffer_size_gives_the_same_picture(&hook(), &[sets[0].as_str(), sets[1].as_str()]);
     }
 }
 

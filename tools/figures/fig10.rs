@@ -68,9 +68,10 @@ fn ours(name: &str, width_mm: f64) -> Result<Scene, Error> {
     yarn.insert("preset".into(), name.into());
     let line = strand(half_length_mm(width_mm), 0.2, |s| DVec3::X * s);
     let mut scene = scene_of(SceneFile { yarn, ..file(name, width_mm) }, name, vec![line])?;
-    let pieces = &mut scene.fabrics[0].strands.pieces;
-    let start = pieces[0].turns;
-    for piece in pieces {
+    let strands = &mut scene.fabrics[0].strands;
+    strands.curves.iter_mut().for_each(|curve| curve.phases = [0.0; 3]);
+    let start = strands.pieces[0].turns;
+    for piece in &mut strands.pieces {
         piece.turns.ply.start -= start.ply.start;
         piece.turns.fiber.start -= start.fiber.start;
         piece.turns.migration.start -= start.migration.start;

@@ -1,7 +1,6 @@
-//! The folder in which references and fronts are kept from one run to the next.
+//! The folder in which what took long is kept from one run to the next.
 
-use crate::error::Error;
-use crate::io::error::FileError;
+use super::error::FileError;
 use etcetera::BaseStrategy;
 use std::path::{Path, PathBuf};
 
@@ -19,14 +18,13 @@ impl Cache {
     ///
     /// # Errors
     /// A user without a home.
-    pub fn new(given: Option<&Path>) -> Result<Self, Error> {
+    pub fn new(given: Option<&Path>) -> Result<Self, String> {
         let variable = || std::env::var_os(CACHE_VARIABLE).filter(|value| !value.is_empty());
         if let Some(folder) = given.map(Path::to_owned).or_else(|| variable().map(PathBuf::from)) {
             return Ok(Self { folder });
         }
-        let strategy = etcetera::choose_base_strategy().map_err(|e| {
-            Error::Arguments(format!("no cache folder ({e}): name one with --cache or {CACHE_VARIABLE}"))
-        })?;
+        let strategy = etcetera::choose_base_strategy()
+            .map_err(|e| format!("no cache folder ({e}): name one with --cache or {CACHE_VARIABLE}"))?;
         Ok(Self { folder: strategy.cache_dir().join("worsted") })
     }
 

@@ -1,0 +1,95 @@
+//! What one run leaves to the next: baked tables, and pipelines as the driver compiled them.
+
+use super::stats::Stats;
+use crate::io::kept::{Kept, Key};
+use crate::passes::pipelines::{Building, Pipelines};
+use crate::precompute::stored::{BAKERS, Stored};
+use crate::shaders;
+use crate::vulkan::{Device, PipelineCache, VulkanError};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Parts of the cache.
+const BAKES: &str = "bakes";
+const PIPELINES: &str = "pipelines";
+
+/// Bakes tables, or reads those that an earlier run baked of the same inputs.
+pub struct Bakery<'a> {
+    kept: &'a Kept,
+    stats: &'a mut Stats,
+}
+
+impl<'a> Bakery<'a> {
+    /// That tells `stats` how long each table took.
+    pub fn new(kept: &'a Kept, stats: &'a mut Stats) -> Self {
+        Self { kept, stats }
+    }
+
+    /// The table called `name`, of what `inputs` adds to its key.
+    pub fn table<T: Stored>(
+        &mut self,
+        name: &str,
+        inputs: impl FnOnce(Key) -> Key,
+        bake: impl FnOnce() -> T,
+    ) -> T {
+        let started = Instant::now();
+        let key = self.kept.is_on().then(|| inputs(Key::new(name, BAKERS)));
+        let found = key.as_ref().and_then(|key| T::from_bytes(&self.kept.get(BAKES, key)?));
+        let from_cache = found.is_some();
+        let table = found.unwrap_or_else(bake);
+        self.stats.add_precompute(name, started.elapsed(), from_cache);
+        if let Some(key) = key.filter(|_| !from_cache) {
+            self.kept.put(BAKES, &key, &table.to_bytes());
+        }
+        table
+    }
+}
+
+/// The pipelines of a renderer, and where they are kept.
+pub struct KeptPipelines {
+    /// What passes build theirs with.
+    pub pipelines: Arc<Pipelines>,
+    kept: Kept,
+    key: Key,
+    /// Bytes that an earlier run left.
+    pub found_bytes: Option<u64>,
+    written: Building,
+}
+
+impl KeptPipelines {
+    /// Starts from what an earlier run left, if it was by the same driver and shaders.
+    ///
+    /// # Errors
+    /// Those of the device.
+    pub fn new(device: &Arc<Device>, kept: &Kept) -> Result<Self, VulkanError> {
+        let key = Key::new("pipelines", device.driver()).bytes(device.name().as_bytes());
+        let key = match kept.is_on() {
+            true => shaders::all().fold(key, |key, (name, words)| {
+                key.bytes(name.as_bytes()).bytes(bytemuck::cast_slice(words))
+            }),
+            false => key,
+        };
+        let found = kept.get(PIPELINES, &key);
+        let cache = || PipelineCache::new(device, found.as_deref().unwrap_or_default());
+        let cache = kept.is_on().then(cache).transpose()?;
+        let pipelines = Arc::new(Pipelines::new(device, cache));
+        let found_bytes = found.map(|bytes| bytes.len() as u64);
+        Ok(Self { pipelines, kept: kept.clone(), key, found_bytes, written: Building::default() })
+    }
+
+    /// Keeps what was built since the last time, if anything was.
+    ///
+    /// # Errors
+    /// Those of the device.
+    pub fn keep(&mut self) -> Result<(), VulkanError> {
+        let building = self.pipelines.building();
+        let Some(cache) = self.pipelines.cache().filter(|_| building != self.written) else { return Ok(()) };
+        self.written = building;
+        let data = cache.data()?;
+        // The driver adds to what it was given: as many bytes are the same ones.
+        if self.found_bytes != Some(data.len() as u64) {
+            self.kept.put(PIPELINES, &self.key, &data);
+        }
+        Ok(())
+    }
+}
