@@ -199,6 +199,7 @@ impl Renderer {
             }
             stats.add_left_out(&features, |what| savings::saved_bytes(&scene, fabric, what));
         }
+        stats.add_left_out_bakes(|name| keeping::last_bake_ms(kept, name));
         let resolve = ResolvePass::new(building, &targets)?;
         let tonemap = TonemapPass::new(building, &targets, &scene.file.display)?;
         let device = device.clone();

@@ -89,13 +89,21 @@ fn the_second_start_reads_what_the_first_one_kept() {
     let (first, stats) = drawing.draw(&[], &drawing.kept());
     assert!(names(&stats).is_empty() && stats.pipelines_from_cache_bytes.is_none());
     assert!(stats.pipelines_built > 0 && stats.pipelines_ms > 0.0);
-    assert_eq!(drawing.files().len(), TABLES.len() + 1);
+    // Each with the time that it took.
+    assert_eq!(drawing.files().len(), 2 * TABLES.len() + 1);
     let (second, stats) = drawing.draw(&[], &drawing.kept());
     assert_eq!(names(&stats), TABLES);
     assert!(stats.pipelines_from_cache_bytes.is_some_and(|bytes| bytes >= 32), "{stats:?}");
     assert_eq!(first, without);
     assert_eq!(second, without);
-    assert_eq!(drawing.files().len(), TABLES.len() + 1);
+    assert_eq!(drawing.files().len(), 2 * TABLES.len() + 1);
+    // What a scene leaves out would take as long as it last did.
+    let sets = ["shadow.self=false", "shading.model='simple'", "light=[{}]"];
+    let (_, stats) = drawing.draw(&sets, &drawing.kept());
+    let known: Vec<&str> = stats.left_out_bake_ms.keys().map(String::as_str).collect();
+    assert_eq!(known, ["scattering_tables", "self_shadow"]);
+    assert!(stats.left_out_bake_ms.values().all(|ms| *ms > 0.0));
+    assert!(drawing.draw(&sets, &Kept::NOTHING).1.left_out_bake_ms.is_empty());
 }
 
 #[test]

@@ -2,8 +2,9 @@
 //!
 //! [`cloth`] and [`views`] say what is drawn, [`settings`] how, [`references`] keeps what it is compared with,
 //! [`run`] goes through all of it and [`report`] holds what came out; [`page`] shows it. [`budget`] picks settings
-//! from what was measured, which [`fronts`] keeps.
+//! from what was measured, which [`fronts`] keeps. [`ablate`] measures what leaving something out saves.
 
+pub mod ablate;
 pub mod blame;
 pub mod budget;
 pub mod clock;

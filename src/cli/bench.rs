@@ -6,6 +6,7 @@ use super::job::parse_size;
 use super::open_device;
 use super::output::write_text;
 use super::progress::{set_share, share_bar};
+use crate::bench::ablate::{Effort, OMISSIONS, Omission, ablate, table};
 use crate::bench::cloth::{Cloth, Model};
 use crate::bench::fronts::{Fronts, look};
 use crate::bench::page;
@@ -31,12 +32,45 @@ const COLOR: [f64; 3] = [0.42, 0.10, 0.05];
 /// Size and samples of a reference where nothing is said, and of a quick run.
 const USUAL: (&str, u64) = ("480x360", 64);
 const QUICK: (&str, u64) = ("160x120", 16);
+/// Size of the pictures that things are left out of.
+const ABLATED: &str = "320x240";
 
 /// Measures, writes the report, keeps the front.
 ///
 /// # Errors
 /// Arguments that make no sense; those of scenes, references, the device and files.
 pub fn run(args: &Bench, common: &Common) -> Result<(), Error> {
+    match &args.output {
+        Some(output) if !args.ablate => report(args, output, common),
+        _ => ablations(args, common),
+    }
+}
+
+/// Prints what leaving each thing out saves.
+fn ablations(args: &Bench, common: &Common) -> Result<(), Error> {
+    let size = parse_size(args.size.as_deref().unwrap_or(ABLATED))?;
+    let part = args.only.as_deref().unwrap_or_default();
+    let omissions: Vec<Omission> =
+        OMISSIONS.iter().copied().filter(|omission| omission.name.contains(part)).collect();
+    if omissions.is_empty() {
+        return Err(Error::Arguments(format!("--only {part}: nothing of that name can be left out")));
+    }
+    let device = open_device(common)?;
+    let bar = share_bar(common);
+    let effort = Effort { size, frames: args.frames };
+    let savings = ablate(&device, effort, &omissions, &mut |share, doing| {
+        set_share(&bar, share);
+        bar.set_message(doing.to_owned());
+    });
+    bar.finish_and_clear();
+    let savings = savings?;
+    let clock = if device.is_cpu() { "processor time of all threads" } else { "time by the device" };
+    say!("{} ({}), {clock}, medians of {} pictures", device.name(), device.driver(), args.frames);
+    say!("{}", table(&savings));
+    Ok(Device::shutdown(device)?)
+}
+
+fn report(args: &Bench, output: &Path, common: &Common) -> Result<(), Error> {
     check_samples(&args.samples)?;
     let cache = Cache::new(args.cache.folder.as_deref()).map_err(Error::Arguments)?;
     let (size, samples) = if args.quick { QUICK } else { USUAL };
@@ -47,7 +81,7 @@ pub fn run(args: &Bench, common: &Common) -> Result<(), Error> {
     floors.sort_unstable();
     floors.dedup();
     let settings = only(all, args.only.as_deref())?;
-    let folder = make_folder(&args.output)?;
+    let folder = make_folder(output)?;
     let models = tempfile::tempdir().map_err(|e| FileError::io(&std::env::temp_dir(), "write", &e))?;
     let (scene, model) = scene(args, models.path())?;
     let views = views(&scene, &args.set, size, &args.views)?;

@@ -37,8 +37,12 @@ pub struct Budget {
 pub struct Bench {
     /// A folder for the report: `index.html`, `bench.json`, `bench.csv`, `bench.svg`. What it holds already is not
     /// measured again.
-    #[arg(short, long, value_name = "DIR")]
-    pub output: PathBuf,
+    #[arg(short, long, value_name = "DIR", required_unless_present = "ablate")]
+    pub output: Option<PathBuf>,
+    /// Print what leaving each thing out of three scenes saves in time, memory and baking, and nothing else; `--only`,
+    /// `--size` and `--frames` are as for a report, but that pictures are of 320x240 pixels when not given.
+    #[arg(long, conflicts_with_all = ["output", "model", "cloth", "views", "samples", "spp", "set", "quick"])]
+    pub ablate: bool,
     /// A scene (`.toml`) or a yarn file (`.bcc`, `.obj`) in place of generated cloth.
     #[arg(long, value_name = "FILE", conflicts_with = "cloth")]
     pub model: Option<PathBuf>,

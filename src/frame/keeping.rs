@@ -12,6 +12,7 @@ use std::time::Instant;
 /// Parts of the cache.
 const BAKES: &str = "bakes";
 const PIPELINES: &str = "pipelines";
+const TIMES: &str = "times";
 
 /// Bakes tables, or reads those that an earlier run baked of the same inputs.
 pub struct Bakery<'a> {
@@ -40,9 +41,21 @@ impl<'a> Bakery<'a> {
         self.stats.add_precompute(name, started.elapsed(), from_cache);
         if let Some(key) = key.filter(|_| !from_cache) {
             self.kept.put(BAKES, &key, &table.to_bytes());
+            let taken_ms = 1e3 * started.elapsed().as_secs_f64();
+            self.kept.put(TIMES, &time_key(name), &taken_ms.to_bytes());
         }
         table
     }
+}
+
+/// Of the time that a table of this name last took to bake, whatever it was baked of.
+fn time_key(name: &str) -> Key {
+    Key::new(name, BAKERS)
+}
+
+/// Milliseconds that a table of this name last took to bake on this machine, if any is kept.
+pub fn last_bake_ms(kept: &Kept, name: &str) -> Option<f64> {
+    f64::from_bytes(&kept.get(TIMES, &time_key(name))?)
 }
 
 /// The pipelines of a renderer, and where they are kept.

@@ -19,6 +19,19 @@ const CORE_IMAGES: u64 = 3;
 /// Lobes with a scattering table.
 const LOBES: u64 = 2;
 
+/// The tables that would be baked with what [`crate::scene::features::Features`] calls `what`, by their names in
+/// `precompute_ms`.
+pub fn saved_bakes(what: &str) -> &'static [&'static str] {
+    match what {
+        "self_shadow" => &["self_shadow"],
+        "scattering_tables" => &["scattering_table"],
+        "yarn_occlusion" => &["sky"],
+        "occlusion" => &["distance_occlusion"],
+        "core_fibers" => &["core_texture"],
+        _ => &[],
+    }
+}
+
 /// Bytes of the buffers and images that a fabric would have besides with what [`crate::scene::features::Features`]
 /// calls `what`; none where it is code alone. Drivers may round up each.
 pub fn saved_bytes(scene: &Scene, fabric: &Fabric, what: &str) -> Option<u64> {

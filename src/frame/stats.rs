@@ -1,5 +1,6 @@
 //! What `--stats` reports. The keys are stable.
 
+use super::savings::saved_bakes;
 use super::{Milliseconds, Request, ms};
 use crate::gpu_types::{RADIANCE_MAX, Statistics};
 pub use crate::math::spread::Spread;
@@ -68,6 +69,9 @@ pub struct Stats {
     pub left_out: BTreeMap<String, String>,
     /// Bytes of device memory that it would take, where it is more than code.
     pub left_out_bytes: BTreeMap<String, u64>,
+    /// Milliseconds that its tables would take to bake, as others of their kind last did on this machine; only where the
+    /// cache knows.
+    pub left_out_bake_ms: Milliseconds,
     /// What the last picture did without, and why.
     pub left_out_of_frame: BTreeMap<String, String>,
     /// Pixels that are not a number or infinite.
@@ -109,6 +113,7 @@ impl Stats {
             host_peak_bytes: None,
             left_out: BTreeMap::new(),
             left_out_bytes: BTreeMap::new(),
+            left_out_bake_ms: BTreeMap::new(),
             left_out_of_frame: BTreeMap::new(),
             nan_pixels: 0,
             clamped_pixels: 0,
@@ -150,6 +155,15 @@ impl Stats {
                 *sum = if shared { bytes } else { *sum + bytes };
             }
         }
+    }
+
+    /// Takes note of how long the tables that are left out took when they were last baked; `last_ms` knows.
+    pub(super) fn add_left_out_bakes(&mut self, last_ms: impl Fn(&str) -> Option<f64>) {
+        let known = |what: &String| {
+            let sum: f64 = saved_bakes(what).iter().filter_map(|name| last_ms(name)).sum();
+            (sum > 0.0).then(|| (what.clone(), sum))
+        };
+        self.left_out_bake_ms = self.left_out.keys().filter_map(known).collect();
     }
 
     /// Takes note of what the last picture does without.
@@ -278,6 +292,7 @@ mod tests {
                 host_peak_bytes: None,
                 left_out: BTreeMap::new(),
                 left_out_bytes: BTreeMap::new(),
+                left_out_bake_ms: BTreeMap::new(),
                 left_out_of_frame: BTreeMap::new(),
                 nan_pixels: 0,
                 clamped_pixels: 0,

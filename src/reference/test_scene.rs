@@ -3,6 +3,7 @@
 use crate::bsdf::presets as fiber_presets;
 use crate::math::bounds::bounds;
 use crate::math::curve::{Basis, Curve};
+use crate::scene::fabric::LoadTimes;
 use crate::scene::{Fabric, Scene, SceneFile};
 use crate::yarn::params::YarnParams;
 use crate::yarn::presets;
@@ -15,7 +16,8 @@ pub fn scene_of(text: &str, curves: &[Curve], yarn: &YarnParams) -> Scene {
     let strands = strands(curves, Basis::CatmullRom, yarn, file.seed);
     let fiber = fiber_presets::fiber(fiber_presets::DEFAULT_FIBER).unwrap();
     let name = "test".to_owned();
-    let fabric = Fabric { name, yarn: yarn.clone(), fiber, strands, mm_per_unit: 1.0, notes: Vec::new() };
+    let (notes, load) = (Vec::new(), LoadTimes::default());
+    let fabric = Fabric { name, yarn: yarn.clone(), fiber, strands, mm_per_unit: 1.0, notes, load };
     let (low, high) = bounds(fabric.hull_points());
     Scene { file, fabrics: vec![fabric], origin_mm: 0.5 * (low + high), environment: None }
 }
