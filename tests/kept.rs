@@ -137,6 +137,17 @@ fn each_table_is_of_what_decides_it_and_of_nothing_else() {
 }
 
 #[test]
+fn plies_followed_one_by_one_are_kept_like_others() {
+    let drawing = Drawing::new();
+    let flat = ["yarn.ellipse_long_mm=0.5", "yarn.ellipse_short_mm=0.02"];
+    let (first, stats) = drawing.draw(&flat, &drawing.kept());
+    assert!(stats.precompute_ms.contains_key("chord_shadow") && names(&stats).is_empty(), "{stats:?}");
+    let (second, stats) = drawing.draw(&flat, &drawing.kept());
+    assert!(names(&stats).contains(&"chord_shadow"), "{stats:?}");
+    assert_eq!(first, second);
+}
+
+#[test]
 fn a_broken_cache_is_made_anew_without_a_word() {
     let drawing = Drawing::new();
     let (whole, _) = drawing.draw(&[], &drawing.kept());
