@@ -4,6 +4,7 @@
 #include "covered.glsl"
 #include "surface.glsl"
 #include "../lib/frame.glsl"
+#include "varying.glsl"
 
 layout(location = 0) centroid in vec3 fragment_position;
 layout(location = 1) centroid in vec3 fragment_tangent;
@@ -34,17 +35,29 @@ void main() {
     strand.tangent = direction_or(fragment_tangent, vec3(1.0, 0.0, 0.0));
     strand.side = normal_perpendicular_to(strand.tangent, fragment_side);
     strand.toward = cross(strand.side, strand.tangent);
-    strand.near_place = round_place();
+    strand.near_place = vec2(0.0);
+    if (READS_PLACE) {
+        strand.near_place = round_place();
+    }
     strand.far_place = strand.near_place;
     strand.far_share = 0.0;
-    // Between the ends of a straight piece they are neither of length 1 nor quite perpendicular.
-    vec3 axis = direction_or(cross(fragment_normal, fragment_binormal), vec3(1.0, 0.0, 0.0));
-    strand.ply_normal = normal_perpendicular_to(axis, fragment_normal);
-    strand.ply_binormal = cross(axis, strand.ply_normal);
-    strand.piece = fragment_fiber.z;
+    strand.ply_normal = vec3(0.0);
+    strand.ply_binormal = vec3(0.0);
+    if (READS_PLY_FRAME) {
+        // Between the ends of a straight piece they are neither of length 1 nor quite perpendicular.
+        vec3 axis = direction_or(cross(fragment_normal, fragment_binormal), vec3(1.0, 0.0, 0.0));
+        strand.ply_normal = normal_perpendicular_to(axis, fragment_normal);
+        strand.ply_binormal = cross(axis, strand.ply_normal);
+    }
     strand.spread = vec3(0.0);
     strand.normals = fiber_normals(covered_values(fragment_across, gl_SampleMaskIn[0]));
-    strand.ply = DEBUG_VIEW == VIEW_PLY ? fibers[fragment_fiber.x].ply : 0u;
-    strand.shown = fragment_fiber.y;
+    strand.piece = 0u;
+    strand.ply = 0u;
+    strand.shown = 0u;
+    if (READS_FIBER) {
+        strand.piece = fragment_fiber.z;
+        strand.ply = DEBUG_VIEW == VIEW_PLY ? fibers[fragment_fiber.x].ply : 0u;
+        strand.shown = fragment_fiber.y;
+    }
     radiance = strand_color(strand);
 }

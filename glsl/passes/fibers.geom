@@ -4,6 +4,7 @@
 #include "bindings.glsl"
 #include "../lib/strip.glsl"
 #include "../yarn/breaks.glsl"
+#include "varying.glsl"
 
 layout(lines) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -47,11 +48,19 @@ void main() {
             fragment_tangent = tangent_world[end].xyz;
             fragment_side = side;
             fragment_across = float(edge);
-            fragment_place = section_place[end] / yarn.outer_radius;
-            fragment_normal = ply_normal[end];
-            fragment_binormal = ply_binormal[end];
-            fragment_fiber = uvec3(fiber_index[end], uint(joining[first].z), piece[end]);
-            fragment_radiance = vertex_radiance[end];
+            if (READS_PLACE) {
+                fragment_place = section_place[end] / yarn.outer_radius;
+            }
+            if (READS_PLY_FRAME) {
+                fragment_normal = ply_normal[end];
+                fragment_binormal = ply_binormal[end];
+            }
+            if (READS_FIBER) {
+                fragment_fiber = uvec3(fiber_index[end], uint(joining[first].z), piece[end]);
+            }
+            if (AT_VERTICES) {
+                fragment_radiance = vertex_radiance[end];
+            }
             gl_Position = frame.clip_from_world * vec4(corner, 1.0);
             EmitVertex();
         }

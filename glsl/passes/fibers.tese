@@ -7,6 +7,7 @@
 #include "level.glsl"
 #include "shown.glsl"
 #include "surface.glsl"
+#include "varying.glsl"
 
 layout(isolines, equal_spacing) in;
 
@@ -26,23 +27,25 @@ layout(location = 6) out vec3 ply_binormal;
 layout(location = 7) out uint piece;
 layout(location = 8) out vec3 vertex_radiance;
 
+uint drawn_fiber;
+
 // Factor of the fiber's own width where level of detail is at work: `flies` where it stands out of the ply as a
 // loop or a hair, for which no core stands.
 float drawn_width(uint slot, vec3 position, bool flies) {
     Detail detail = detail_at(pixel_mm_at(position));
     float width = width_factor(slot_weight(slot, detail), detail.share);
-    return flies ? width : width * rank_weight(fiber_index / yarn.ply_count, detail.kept);
+    return flies ? width : width * rank_weight(drawn_fiber / yarn.ply_count, detail.kept);
 }
 
 // Radiance of a fiber whose width a pixel does not resolve.
-vec3 radiance_at(FiberPoint f) {
+vec3 radiance_at(FiberPoint f, vec2 place) {
     Strand strand;
     strand.position = f.position;
     strand.tangent = f.tangent;
     vec3 to_eye = direction_or(frame.eye_world.xyz - f.position, vec3(0.0, 0.0, 1.0));
     strand.side = strip_side(f.tangent, to_eye);
     strand.toward = cross(strand.side, strand.tangent);
-    strand.near_place = section_place.xy / yarn.outer_radius;
+    strand.near_place = place / yarn.outer_radius;
     strand.far_place = strand.near_place;
     strand.far_share = 0.0;
     strand.ply_normal = f.ply_normal;
@@ -57,7 +60,7 @@ void main() {
     // TessCoord is 16.16 fixed point on some drivers: round, never floor.
     uint line = uint(gl_TessCoord.y * float(patch_fibers) + 0.5);
     uint slot = patch_first_fiber + (CORE_FIBERS ? nth_set_bit(patch_mask, line) : line);
-    fiber_index = CORE_FIBERS ? fiber_of_slot(slot, yarn) : slot;
+    drawn_fiber = CORE_FIBERS ? fiber_of_slot(slot, yarn) : slot;
     float place = floor(gl_TessCoord.x * float(patch_pieces) + 0.5);
     float t = place / float(patch_pieces);
     Segment segment = segment_at(patch_segment);
@@ -65,24 +68,33 @@ void main() {
     bool flies = false;
     if (FLYAWAYS) {
         StrandVertex vertex;
-        f = fetch_fiber_vertex(segment, fiber_index, t, patch_pieces, vertex);
+        f = fetch_fiber_vertex(segment, drawn_fiber, t, patch_pieces, vertex);
         // Beyond its tip a hair's period goes on as a fiber that only migrates.
         bool migrates = vertex.period.kind == KIND_HAIR && !on_hair(vertex.period, vertex.x);
         uint kind = migrates ? KIND_MIGRATION : vertex.period.kind;
-        flies = kind != KIND_MIGRATION && f.radius > flying_radius(fibers[fiber_index], yarn);
+        flies = kind != KIND_MIGRATION && f.radius > flying_radius(fibers[drawn_fiber], yarn);
         joining = ivec4(vertex.entry, vertex.exit, shown(segment, f, kind, vertex.t), int(place));
     } else {
         Period period;
-        f = fetch_fiber_at(segment, fiber_index, t, period);
+        f = fetch_fiber_at(segment, drawn_fiber, t, period);
         joining = ivec4(0, 0, shown(segment, f, period.kind, t), int(place));
     }
     position_world = f.position;
     tangent_world = vec4(f.tangent, CORE_FIBERS ? f.width * drawn_width(slot, f.position, flies) : f.width);
-    ply_normal = f.ply_normal;
-    ply_binormal = f.ply_binormal;
     vec3 from_center = f.position - f.yarn_center;
-    section_place.xy = vec2(dot(from_center, ply_normal), dot(from_center, ply_binormal));
-    section_place.z = distance(f.position, f.ply_center);
-    piece = patch_segment;
-    vertex_radiance = AT_VERTICES ? radiance_at(f) : vec3(0.0);
+    vec2 section = vec2(dot(from_center, f.ply_normal), dot(from_center, f.ply_binormal));
+    if (READS_PLACE) {
+        section_place = vec3(section, distance(f.position, f.ply_center));
+    }
+    if (READS_PLY_FRAME) {
+        ply_normal = f.ply_normal;
+        ply_binormal = f.ply_binormal;
+    }
+    if (READS_FIBER) {
+        fiber_index = drawn_fiber;
+        piece = patch_segment;
+    }
+    if (AT_VERTICES) {
+        vertex_radiance = radiance_at(f, section);
+    }
 }

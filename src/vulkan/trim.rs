@@ -225,7 +225,7 @@ fn drop_uncalled(module: &mut Module) {
     module.functions.retain(|function| function.def_id().is_some_and(|id| called.contains(&id)));
 }
 
-/// Takes out resources that no function reads, and every word about what is not there any more.
+/// Takes out resources, and values from and for other stages, that no function names, and every word about what is not there any more.
 fn drop_unread(module: &mut Module) {
     let read: HashSet<Word> = module
         .functions
@@ -241,6 +241,8 @@ fn drop_unread(module: &mut Module) {
                     | StorageClass::UniformConstant
                     | StorageClass::StorageBuffer
                     | StorageClass::PushConstant
+                    | StorageClass::Input
+                    | StorageClass::Output
             ))
         );
         let variable = global.class.opcode == Op::Variable;

@@ -1,6 +1,6 @@
 //! `worsted bench` and the budget of `worsted render`.
 
-use crate::process::{Workplace, assert_good, error_fault};
+use crate::process::{Workplace, assert_good, error_fault, swatch};
 use serde_json::Value;
 use std::process::Output;
 
@@ -124,4 +124,48 @@ fn a_budget_is_kept_refused_or_found_broken() {
     std::fs::write(&front, claims.to_string()).unwrap();
     let broken = render(&[&fit[..], &["--max-error", "0.001", "--verify", "-q"]].concat());
     assert_eq!(error_fault(&broken, 1, &["not kept", "FLIP"]), None);
+}
+
+#[test]
+fn ablations_are_printed_for_three_scenes_and_need_no_folder() {
+    let place = Workplace::new();
+    let quick = ["bench", "--ablate", "--device", "software", "--frames", "1", "--size", "32x24", "--only"];
+    let output = place.run(&[&quick[..], &["self_shadow"]].concat());
+    assert_good(&output);
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let rows: Vec<&str> = text.lines().filter(|line| line.contains("| self_shadow |")).collect();
+    assert_eq!(rows.len(), 3, "{text}");
+    for row in rows {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let number = |cell: usize| cells[cell].parse::<f64>().unwrap_or(f64::NAN);
+        // Time with and without, bytes of the table (which a driver may round up) and the time to bake it.
+        assert!(number(3) > 0.0 && number(4) > 0.0 && number(8) > 0.0, "{row}");
+        assert!((1_048_576.0..1_200_000.0).contains(&number(7)), "{row}");
+    }
+    assert!(place.contents().is_empty(), "{:?}", place.contents());
+    let output = place.run(&[&quick[..], &["nothing of that name"]].concat());
+    assert_eq!(output.status.code(), Some(2));
+    let output = place.run(&["bench"]);
+    assert_eq!(output.status.code(), Some(2), "a report needs a folder");
+}
+
+#[test]
+fn renders_keep_tables_where_they_are_told_to_or_nowhere() {
+    let place = Workplace::new();
+    let swatch = swatch();
+    let render =
+        ["render", &swatch, "--device", "software", "--size", "32x24", "--samples", "1", "-o", "a.png"];
+    assert_good(&place.run(&[&render[..], &["--cache", "kept"]].concat()));
+    assert!(place.path("kept/bakes").is_dir() && place.path("kept/pipelines").is_dir());
+    let stats = [&render[..], &["--cache", "kept", "--stats", "s.json"]].concat();
+    assert_good(&place.run(&stats));
+    let stats: Value = serde_json::from_slice(&place.read("s.json")).unwrap();
+    assert!(stats["precompute_from_cache"].as_array().is_some_and(|names| names.len() >= 5), "{stats}");
+    assert!(stats["host_peak_bytes"].as_u64().is_none_or(|bytes| bytes > 1 << 20), "{stats}");
+    let kept = place.path("nowhere");
+    let nowhere = kept.to_str().unwrap();
+    assert_good(&place.run_with(&[&render[..], &["--no-cache"]].concat(), &[("WORSTED_CACHE", nowhere)]));
+    assert!(!kept.exists());
+    assert_good(&place.run_with(&render[..], &[("WORSTED_CACHE", nowhere)]));
+    assert!(kept.join("bakes").is_dir());
 }
