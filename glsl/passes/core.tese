@@ -25,7 +25,8 @@ void main() {
     float t = floor(gl_TessCoord.x * float(patch_pieces) + 0.5) / float(patch_pieces);
     Segment segment = segment_at(patch_segment);
     // A fiber at the ply's centre.
-    FiberPoint center = fetch_fiber_point(segment, Fiber(0.0, 0.0, 0.0, ply), t, FiberShape(0.0, 0.0, 0.0, 0.0, 1.0));
+    FiberPoint center = fetch_fiber_point(segment, fetch_span(segment.first_point), Fiber(0.0, 0.0, 0.0, ply), t,
+                                          FiberShape(0.0, 0.0, 0.0, 0.0, 1.0));
     vec3 to_eye = direction_or(frame.eye_world.xyz - center.position, vec3(0.0, 0.0, 1.0));
     float turns_per_mm = segment.length_mm > 0.0 ? segment.ply_turns_delta / segment.length_mm : 0.0;
     vec3 axis = core_axis(center.ply_normal, center.ply_binormal, turns_per_mm, yarn.ply_offset);

@@ -30,11 +30,17 @@ layout(location = 6) centroid out vec3 fragment_normal;       // of the ply, and
 layout(location = 7) centroid out vec3 fragment_binormal;
 layout(location = 8) centroid out vec3 fragment_radiance;     // where it is shaded at its vertices
 
+// Which end of the line comes first along the yarn is the driver's choice.
+int first_end() {
+    return joining[0].w < joining[1].w ? 0 : 1;
+}
+
 void main() {
-    // Which end of the line comes first along the yarn is the driver's choice.
-    int first = joining[0].w < joining[1].w ? 0 : 1;
-    if (FLYAWAYS && is_broken(joining[first].y, joining[1 - first].x)) {
-        return;
+    if (FLYAWAYS) {
+        int first = first_end();
+        if (is_broken(joining[first].y, joining[1 - first].x)) {
+            return;
+        }
     }
     if (CORE_FIBERS && max(tangent_world[0].w, tangent_world[1].w) <= 0.0) {
         return;
@@ -56,7 +62,7 @@ void main() {
                 fragment_binormal = ply_binormal[end];
             }
             if (READS_FIBER) {
-                fragment_fiber = uvec3(fiber_index[end], uint(joining[first].z), piece[end]);
+                fragment_fiber = uvec3(fiber_index[end], uint(joining[first_end()].z), piece[end]);
             }
             if (AT_VERTICES) {
                 fragment_radiance = vertex_radiance[end];

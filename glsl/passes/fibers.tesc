@@ -16,7 +16,13 @@ layout(location = 1) patch out uint patch_first_fiber;
 layout(location = 2) patch out uint patch_fibers;
 layout(location = 3) patch out uint patch_pieces;
 layout(location = 4) patch out uvec2 patch_mask;
-layout(location = 5) patch out uint lane_masks[LANES];
+layout(location = 5) patch out vec3 patch_turns;        // of ply, fibers and migration: at the piece's start
+layout(location = 6) patch out vec3 patch_turns_delta;
+layout(location = 7) patch out vec2 patch_length;       // rest length before the piece, and its own
+layout(location = 8) patch out uvec4 patch_curve;       // first point, curve, migration period, their number
+layout(location = 9) patch out vec3 patch_bezier[4];
+layout(location = 13) patch out vec3 patch_normals[2];
+layout(location = 15) patch out uint lane_masks[LANES];
 
 // The slots of this group whose fibers are drawn over some of the piece, of every eighth from this lane's on, one bit
 // each.
@@ -67,10 +73,22 @@ uint pieces_of(Segment segment, vec3 b[4], float pixel_mm, uint most) {
     return FLYAWAYS ? period_pieces(pieces, period_rate(segment, yarn), most) : pieces;
 }
 
+// What the evaluation stage would unpack and fetch for every vertex.
+void hand_on(Segment segment, Span span) {
+    patch_turns = vec3(segment.ply_turns, segment.fiber_turns, segment.migration_turns);
+    patch_turns_delta = vec3(segment.ply_turns_delta, segment.fiber_turns_delta, segment.migration_turns_delta);
+    patch_length = vec2(segment.length_start, segment.length_mm);
+    patch_curve = uvec4(segment.first_point, segment.curve, uint(segment.migration_period),
+                        segment.migration_period_count);
+    patch_bezier = span.bezier;
+    patch_normals[0] = span.normal_start;
+    patch_normals[1] = span.normal_end;
+}
+
 void main() {
     Segment segment = segment_at(segment_index[0]);
-    vec3 b[4];
-    fetch_bezier(segment.first_point, b);
+    Span span = fetch_span(segment.first_point);
+    vec3 b[4] = span.bezier;
     bool outside = CULLING && outside_frustum(b, yarn.reach + yarn.fiber_radius, frame.frustum_world);
     float pixel_mm = frame.pixel_tangent * nearest_depth(b, depth_axis(), yarn.reach, frame.near_mm);
     // Of the yarn itself: it must not change with the hairs' length.
@@ -96,6 +114,7 @@ void main() {
     // The evaluation stage sees levels before clamping, so it gets the counts themselves.
     patch_fibers = fiber_count;
     patch_pieces = pieces;
+    hand_on(segment, span);
     gl_TessLevelOuter[0] = culled ? 0.0 : float(fiber_count);
     gl_TessLevelOuter[1] = culled ? 0.0 : float(pieces);
     if (STATISTICS) {

@@ -16,6 +16,12 @@ layout(location = 1) patch in uint patch_first_fiber;
 layout(location = 2) patch in uint patch_fibers;
 layout(location = 3) patch in uint patch_pieces;
 layout(location = 4) patch in uvec2 patch_mask;
+layout(location = 5) patch in vec3 patch_turns;         // of ply, fibers and migration: at the piece's start
+layout(location = 6) patch in vec3 patch_turns_delta;
+layout(location = 7) patch in vec2 patch_length;        // rest length before the piece, and its own
+layout(location = 8) patch in uvec4 patch_curve;        // first point, curve, migration period, their number
+layout(location = 9) patch in vec3 patch_bezier[4];
+layout(location = 13) patch in vec3 patch_normals[2];
 
 layout(location = 0) out vec3 position_world;
 layout(location = 1) out vec4 tangent_world;   // a: share of the fiber's width
@@ -28,6 +34,12 @@ layout(location = 7) out uint piece;
 layout(location = 8) out vec3 vertex_radiance;
 
 uint drawn_fiber;
+
+Segment handed_segment() {
+    return Segment(patch_curve.x, patch_curve.y, int(patch_curve.z), patch_curve.w, patch_turns.x, patch_turns.y,
+                   patch_turns.z, patch_length.x, patch_turns_delta.x, patch_turns_delta.y, patch_turns_delta.z,
+                   patch_length.y);
+}
 
 // Factor of the fiber's own width where level of detail is at work: `flies` where it stands out of the ply as a
 // loop or a hair, for which no core stands.
@@ -63,21 +75,26 @@ void main() {
     drawn_fiber = CORE_FIBERS ? fiber_of_slot(slot, yarn) : slot;
     float place = floor(gl_TessCoord.x * float(patch_pieces) + 0.5);
     float t = place / float(patch_pieces);
-    Segment segment = segment_at(patch_segment);
+    Segment segment = handed_segment();
+    Span span = Span(patch_bezier, patch_normals[0], patch_normals[1]);
     FiberPoint f;
     bool flies = false;
+    ivec4 joins;
     if (FLYAWAYS) {
         StrandVertex vertex;
-        f = fetch_fiber_vertex(segment, drawn_fiber, t, patch_pieces, vertex);
+        f = fetch_fiber_vertex(segment, span, drawn_fiber, t, patch_pieces, vertex);
         // Beyond its tip a hair's period goes on as a fiber that only migrates.
         bool migrates = vertex.period.kind == KIND_HAIR && !on_hair(vertex.period, vertex.x);
         uint kind = migrates ? KIND_MIGRATION : vertex.period.kind;
         flies = kind != KIND_MIGRATION && f.radius > flying_radius(fibers[drawn_fiber], yarn);
-        joining = ivec4(vertex.entry, vertex.exit, shown(segment, f, kind, vertex.t), int(place));
+        joins = ivec4(vertex.entry, vertex.exit, shown(segment, f, kind, vertex.t), int(place));
     } else {
         Period period;
-        f = fetch_fiber_at(segment, drawn_fiber, t, period);
-        joining = ivec4(0, 0, shown(segment, f, period.kind, t), int(place));
+        f = fetch_fiber_at(segment, span, drawn_fiber, t, period);
+        joins = ivec4(0, 0, shown(segment, f, period.kind, t), int(place));
+    }
+    if (FLYAWAYS) {
+        joining = joins;
     }
     position_world = f.position;
     tangent_world = vec4(f.tangent, CORE_FIBERS ? f.width * drawn_width(slot, f.position, flies) : f.width);
@@ -91,6 +108,7 @@ void main() {
         ply_binormal = f.ply_binormal;
     }
     if (READS_FIBER) {
+        joining = joins;
         fiber_index = drawn_fiber;
         piece = patch_segment;
     }

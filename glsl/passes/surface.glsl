@@ -235,17 +235,30 @@ vec3 ambient(Strand strand, vec3 to_eye) {
     return sum;
 }
 
+// Radiance toward the eye of one light.
+vec3 lit(Strand strand, uint index, vec3 to_eye) {
+    Arriving arriving = LOCAL_LIGHTS ? light_at(lights[index], strand.position)
+                                     : Arriving(lights[index].toward, lights[index].strength);
+    vec3 scattered = scatter(strand, arriving.to_light, to_eye);
+    // Most of a yarn faces away from a light: nobody looks there what shadows it.
+    bool may_be_shadowed = SELF_SHADOW || SHADOW_MAP;
+    if (!may_be_shadowed || max(scattered.r, max(scattered.g, scattered.b)) > LEAST_SCATTERED) {
+        return scattered * arriving.irradiance * unshadowed(strand, lights[index], arriving.to_light);
+    }
+    return vec3(0.0);
+}
+
 vec3 shade(Strand strand, vec3 to_eye) {
     vec3 sum = vec3(0.0);
-    // Without lights their buffer is not there: src/vulkan/trim.rs takes out what this constant decides.
-    for (uint i = 0u; LIGHT_COUNT > 0u && i < min(LIGHT_COUNT, frame.light_count); ++i) {
-        Arriving arriving = LOCAL_LIGHTS ? light_at(lights[i], strand.position)
-                                         : Arriving(lights[i].toward, lights[i].strength);
-        vec3 scattered = scatter(strand, arriving.to_light, to_eye);
-        // Most of a yarn faces away from a light: nobody looks there what shadows it.
-        bool may_be_shadowed = SELF_SHADOW || SHADOW_MAP;
-        if (!may_be_shadowed || max(scattered.r, max(scattered.g, scattered.b)) > LEAST_SCATTERED) {
-            sum += scattered * arriving.irradiance * unshadowed(strand, lights[i], arriving.to_light);
+    // Without lights their buffer is not there: src/vulkan/trim.rs takes out what this constant decides. One light
+    // needs no loop, which some devices run slowly.
+    if (LIGHT_COUNT == 1u) {
+        if (frame.light_count > 0u) {
+            sum = lit(strand, 0u, to_eye);
+        }
+    } else if (LIGHT_COUNT > 1u) {
+        for (uint i = 0u; i < min(LIGHT_COUNT, frame.light_count); ++i) {
+            sum += lit(strand, i, to_eye);
         }
     }
     if (AMBIENT) {

@@ -18,7 +18,9 @@ void main() {
         return;
     }
     Period period;
-    FiberPoint f = fetch_fiber_at(segment_at(queries[i].segment), queries[i].fiber, queries[i].t, period);
+    Segment segment = segment_at(queries[i].segment);
+    Span span = fetch_span(segment.first_point);
+    FiberPoint f = fetch_fiber_at(segment, span, queries[i].fiber, queries[i].t, period);
     answers[i].position = vec4(f.position, f.center_distance);
     answers[i].tangent = vec4(f.tangent, float(period.kind));
 }

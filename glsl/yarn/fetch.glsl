@@ -18,36 +18,50 @@ void fetch_bezier(uint first_point, out vec3 b[4]) {
     bezier_from_basis(b, BASIS);
 }
 
-// The fiber with this index in the yarn's table, at t of the piece, in the given shape.
-FiberPoint fetch_fiber_point(Segment segment, Fiber fiber, float t, FiberShape shape) {
-    vec3 b[4];
-    fetch_bezier(segment.first_point, b);
-    vec3 normal_start = unit_from_octahedral(control_points[segment.first_point + KNOT_START].normal_octahedral);
-    vec3 normal_end = unit_from_octahedral(control_points[segment.first_point + KNOT_END].normal_octahedral);
-    YarnPoint yarn_at = yarn_point(b, normal_start, normal_end, t);
+// Where a piece of yarn runs: its Bezier curve, and the unit normals of its knots.
+struct Span {
+    vec3 bezier[4];
+    vec3 normal_start;
+    vec3 normal_end;
+};
+
+// That of the piece that begins with this control point.
+Span fetch_span(uint first_point) {
+    Span span;
+    fetch_bezier(first_point, span.bezier);
+    span.normal_start = unit_from_octahedral(control_points[first_point + KNOT_START].normal_octahedral);
+    span.normal_end = unit_from_octahedral(control_points[first_point + KNOT_END].normal_octahedral);
+    return span;
+}
+
+// A fiber at t of the piece, in the given shape.
+FiberPoint fetch_fiber_point(Segment segment, Span span, Fiber fiber, float t, FiberShape shape) {
+    YarnPoint yarn_at = yarn_point(span.bezier, span.normal_start, span.normal_end, t);
     return fiber_point(yarn_at, twist_at(segment, t), yarn, fiber, shape);
 }
 
 // The fiber at exactly t, whatever it is there.
-FiberPoint fetch_fiber_at(Segment segment, uint fiber_index, float t, out Period period) {
+FiberPoint fetch_fiber_at(Segment segment, Span span, uint fiber_index, float t, out Period period) {
     Fiber fiber = fibers[fiber_index];
     if (!FLYAWAYS) {
         period.kind = KIND_MIGRATION;
         Twist twist = twist_at(segment, t);
-        return fetch_fiber_point(segment, fiber, t, migration_shape(fiber, twist.migration, twist.migration_rate, yarn));
+        FiberShape shape = migration_shape(fiber, twist.migration, twist.migration_rate, yarn);
+        return fetch_fiber_point(segment, span, fiber, t, shape);
     }
     float u = period_turns(segment, fiber, t, yarn);
     period = draw_period(segment, fiber, fiber_index, period_base(segment, yarn) + int(floor(u)), yarn);
     FiberShape shape = period_shape(fiber, period, fract(u), period_rate(segment, yarn), yarn);
-    return fetch_fiber_point(segment, fiber, t, shape);
+    return fetch_fiber_point(segment, span, fiber, t, shape);
 }
 
 // A vertex of the fiber drawn in `steps` pieces, with what joins it to its neighbours.
-FiberPoint fetch_fiber_vertex(Segment segment, uint fiber_index, float t, uint steps, out StrandVertex vertex) {
+FiberPoint fetch_fiber_vertex(Segment segment, Span span, uint fiber_index, float t, uint steps,
+                              out StrandVertex vertex) {
     Fiber fiber = fibers[fiber_index];
     vertex = strand_vertex(segment, fiber, fiber_index, t, steps, yarn);
     FiberShape shape = period_shape(fiber, vertex.period, vertex.x, period_rate(segment, yarn), yarn);
-    return fetch_fiber_point(segment, fiber, vertex.t, shape);
+    return fetch_fiber_point(segment, span, fiber, vertex.t, shape);
 }
 
 #endif

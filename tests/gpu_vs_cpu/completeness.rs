@@ -7,6 +7,7 @@ use worsted::shaders;
 /// Functions that cannot run over free-standing arguments, each with what tests it instead.
 const EXEMPT: &[(&str, &str)] = &[
     ("fetch_bezier", "reads the fabric's buffers: tests/fiber_positions.rs"),
+    ("fetch_span", "reads the fabric's buffers: tests/fiber_positions.rs"),
     ("fetch_fiber_point", "reads the fabric's buffers: tests/fiber_positions.rs"),
     ("fetch_fiber_at", "reads the fabric's buffers: tests/fiber_positions.rs"),
     ("fetch_fiber_vertex", "reads the fabric's buffers; its parts are strand_vertex and fiber_point"),
