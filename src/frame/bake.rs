@@ -82,8 +82,7 @@ impl Bakes {
                 let texture = || bake_occlusion_table(yarn, extinction_per_mm, texels);
                 bakery.table("occlusion_texture", |key| of_yarn(key).shown(&texels), texture)
             }),
-            self_shadow: by_place
-                .then(|| bakery.table("self_shadow", |key| key.shown(&(yarn, size)), depth)),
+            self_shadow: by_place.then(|| bakery.table("self_shadow", |key| key.shown(&(yarn, size)), depth)),
             chord_shadow: features
                 .chord_shadow
                 .then(|| bakery.table("chord_shadow", |key| key.shown(yarn), chords)),
