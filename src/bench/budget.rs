@@ -9,7 +9,7 @@ use crate::scene::Scene;
 
 /// Factor on measured errors: another cloth of the same look came out up to 1.36 times worse (`measure budgets`).
 pub const ERROR_MARGIN: f64 = 1.5;
-/// The same of times: there up to 1.67 times as long.
+/// The same of times: there up to 1.82 times as long, by processor time.
 pub const TIME_MARGIN: f64 = 2.0;
 /// How far beyond the measured widths of a fiber a scene's may lie, as a factor.
 const REACH: f64 = 1.5;
