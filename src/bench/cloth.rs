@@ -21,12 +21,21 @@ const BODY: [u32; 2] = [24, 20];
 const SLEEVE: [u32; 2] = [10, 16];
 /// Between body and sleeves, in yarn diameters.
 const SLEEVE_GAP: f64 = 4.0;
+/// Between wales and between courses of loose cloth, in yarn diameters.
+const LOOSE: [f64; 2] = [5.4, 3.8];
 
 /// Generated fabric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cloth {
     /// A flat swatch.
     Stockinette {
+        /// Loops of a row.
+        wales: u32,
+        /// Rows of loops.
+        courses: u32,
+    },
+    /// A flat swatch of looser loops, which light goes through.
+    Loose {
         /// Loops of a row.
         wales: u32,
         /// Rows of loops.
@@ -50,6 +59,7 @@ impl Cloth {
     pub fn name(self) -> &'static str {
         match self {
             Self::Stockinette { .. } => "stockinette",
+            Self::Loose { .. } => "loose-stockinette",
             Self::Tube { .. } => "tube",
             Self::Sweater => "sweater",
             Self::Straight => "straight-yarn",
@@ -61,11 +71,15 @@ impl Cloth {
     /// # Errors
     /// Fabric that cannot be knitted.
     pub fn knit(self, yarn_radius_mm: f64) -> Result<CurveSet, Error> {
+        let flat = |wales, courses| KnitParams { wales, courses, yarn_radius_mm, ..KnitParams::swatch() };
         let round =
             |[wales, courses]: [u32; 2]| KnitParams { wales, courses, yarn_radius_mm, ..KnitParams::tube() };
         Ok(match self {
-            Self::Stockinette { wales, courses } => {
-                stockinette(&KnitParams { wales, courses, yarn_radius_mm, ..KnitParams::swatch() })?
+            Self::Stockinette { wales, courses } => stockinette(&flat(wales, courses))?,
+            Self::Loose { wales, courses } => {
+                let [wale_spacing_mm, course_spacing_mm] =
+                    LOOSE.map(|diameters| Some(diameters * 2.0 * yarn_radius_mm));
+                stockinette(&KnitParams { wale_spacing_mm, course_spacing_mm, ..flat(wales, courses) })?
             }
             Self::Tube { wales, courses } => tube(&round([wales, courses]))?,
             Self::Sweater => {

@@ -2,7 +2,8 @@
 //!
 //! [`cloth`] and [`views`] say what is drawn, [`settings`] how, [`references`] keeps what it is compared with,
 //! [`run`] goes through all of it and [`report`] holds what came out; [`page`] shows it. [`budget`] picks settings
-//! from what was measured, which [`fronts`] keeps. [`ablate`] measures what leaving something out saves.
+//! from what was measured, which [`fronts`] keeps, and [`verify`] measures what they promised. [`ablate`] measures what
+//! leaving something out saves.
 
 pub mod ablate;
 pub mod blame;
@@ -17,6 +18,7 @@ pub mod report;
 pub mod run;
 pub mod settings;
 pub mod truth;
+pub mod verify;
 pub mod views;
 pub mod work;
 

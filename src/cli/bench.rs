@@ -10,9 +10,9 @@ use crate::bench::ablate::{Effort, OMISSIONS, Omission, ablate, table};
 use crate::bench::cloth::{Cloth, Model};
 use crate::bench::fronts::{Fronts, look};
 use crate::bench::page;
-use crate::bench::report::Report;
+use crate::bench::report::{Cell, Report};
 use crate::bench::run::{self, Plan};
-use crate::bench::settings::{Setting, check_samples, grid, quick_grid};
+use crate::bench::settings::{DEFAULT, Setting, check_samples, grid, quick_grid};
 use crate::bench::truth::TruthSettings;
 use crate::bench::views::views;
 use crate::cli::say::{say, tell};
@@ -173,15 +173,17 @@ fn keep_front(plan: &Plan, device: &Device, report: &Report) -> Result<(), Error
     fronts.write(&plan.cache)
 }
 
-/// A table of every picture against the default of its view.
+/// A table of every picture against the default of its view, where that was drawn.
 fn ratios(report: &Report) -> String {
     let mut lines =
         vec!["| view | setting | FLIP | time / default's |".to_owned(), "|---|---|---|---|".to_owned()];
     for view in &report.views {
-        let default = report.cells_of(&view.name).next().map(|cell| cell.time(&report.head).median);
+        let ms = |cell: &Cell| cell.time(&report.head).median;
+        let default_ms = report.cell(&view.name, DEFAULT).map(ms);
         for cell in report.cells_of(&view.name) {
-            let ratio = cell.time(&report.head).median / default.unwrap_or(f64::NAN);
-            lines.push(format!("| {} | {} | {:.4} | {ratio:.2} |", view.name, cell.setting.name, cell.flip));
+            let ratio =
+                default_ms.map_or("-".to_owned(), |default_ms| format!("{:.2}", ms(cell) / default_ms));
+            lines.push(format!("| {} | {} | {:.4} | {ratio} |", view.name, cell.setting.name, cell.flip));
         }
     }
     lines.join("\n")

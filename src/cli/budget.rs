@@ -2,14 +2,9 @@
 
 use super::bench_args::Budget;
 use super::job::{RenderJob, in_range};
-use crate::bench::against;
 use crate::bench::budget::{Facts, Promise, Wanted, pick};
-use crate::bench::fronts::{Fronts, look};
-use crate::bench::measure::measure;
-use crate::bench::references::reference;
-use crate::bench::truth::TruthSettings;
-use crate::bench::views::fiber_px;
-use crate::bench::work::work;
+use crate::bench::fronts::Fronts;
+use crate::bench::verify;
 use crate::cli::say::tell;
 use crate::error::Error;
 use crate::frame::Picture;
@@ -19,11 +14,6 @@ use crate::io::picture::LinearImage;
 use crate::scene::Scene;
 use crate::vulkan::Device;
 use std::sync::Arc;
-
-/// Samples a pixel of the reference that a promise is verified by: as many as `worsted bench` has.
-const VERIFIED_BY: u64 = 64;
-/// Pictures of which the median is held against a promised time.
-const FRAMES: u32 = 3;
 
 /// What a picture may cost, and where that is known from.
 pub struct BudgetJob {
@@ -64,12 +54,7 @@ impl BudgetJob {
     /// Nothing measured that would tell, or nothing good enough.
     pub fn settle(&self, job: &mut RenderJob, device: &Device) -> Result<Promise, Error> {
         let fronts = Fronts::read(&self.cache, device.name(), device.driver())?;
-        let size = job.request.size;
-        let facts = Facts {
-            look: look(&job.scene),
-            fiber_px: fiber_px(&job.scene, size)?,
-            work: work(&job.scene, size),
-        };
+        let facts = Facts::of(&job.scene, job.request.size)?;
         let path = job.path.display().to_string();
         let promise =
             pick(&fronts, &facts, self.wanted, &path).map_err(|e| Error::Arguments(e.to_string()))?;
@@ -112,16 +97,14 @@ impl BudgetJob {
             }
         };
         if let Some(most) = self.wanted.ms {
-            let measured = measure(device, job.scene.clone(), job.request, FRAMES)?;
+            let measured = verify::times(device, job.scene.clone(), job.request)?;
             hold("wall time in ms", measured.wall_ms.median, most);
         }
         if let Some(most) = self.wanted.error {
             let asked_for = job.asked_for.as_ref().unwrap_or(&job.scene);
-            let settings = TruthSettings { samples: VERIFIED_BY, floors: Vec::new() };
-            let truth = reference(&self.cache, asked_for, picture.size, &settings, &mut |_| ())?;
             let [width, height] = picture.size;
             let drawn = LinearImage { width, height, pixels: picture.linear.clone() };
-            hold("FLIP", against(&drawn, &truth.picture.mean)?.error.covered.flip_mean, most);
+            hold("FLIP", verify::error(&self.cache, asked_for, &drawn, &mut |_| ())?, most);
         }
         if broken.is_empty() {
             Ok(())

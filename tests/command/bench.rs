@@ -62,6 +62,31 @@ fn a_bench_goes_on_from_what_it_measured_and_keeps_its_references() {
 }
 
 #[test]
+fn a_quick_bench_prints_ratios_and_keeps_no_front() {
+    let place = Workplace::new();
+    let table = |only: &str| {
+        let done = bench(&place, &["--quick", "--only", only, "-q"]);
+        assert_good(&done);
+        let printed = String::from_utf8(done.stdout).unwrap();
+        let rows: Vec<&str> = printed.lines().skip(2).collect();
+        let cells = |row: &str| row.split('|').map(|cell| cell.trim().to_owned()).collect::<Vec<_>>();
+        rows.into_iter().map(cells).collect::<Vec<_>>()
+    };
+    let [row] = &table("default")[..] else { panic!("expected one row") };
+    assert_eq!((&row[1][..], &row[2][..], &row[4][..]), ("close", "default", "1.00"));
+    assert_eq!(
+        row[3].parse::<f64>().unwrap(),
+        (report(&place)["cells"][0]["flip"].as_f64().unwrap() * 1e4).round() / 1e4
+    );
+    let without_default = table("1 sample");
+    assert!(
+        without_default.len() == 2 && without_default.iter().all(|row| row[4] == "-"),
+        "{without_default:?}"
+    );
+    assert!(!place.read("report/index.html").is_empty() && !place.path("cache/fronts").exists());
+}
+
+#[test]
 fn what_cannot_be_measured_is_refused() {
     let place = Workplace::new();
     let wrong: [(&[&str], &str); 5] = [

@@ -1,7 +1,9 @@
 //! Measures what level of detail and tables cost and save, and says whether their limits hold: `measure
-//! lod-error|lod-cost|dolly|turntable|tables|shadow-tables|shadow-cost|judge`. Exit codes are those of `worsted`; 1 is a limit
-//! that does not hold.
+//! lod-error|lod-cost|dolly|turntable|tables|shadow-tables|shadow-cost|judge|budgets`. Exit codes are those of `worsted`;
+//! 1 is a limit that does not hold.
 
+mod budget_scenes;
+mod budgets;
 mod cost;
 mod dolly;
 mod judge;
@@ -53,6 +55,8 @@ enum Command {
     ShadowTables(shadow_tables::Options),
     /// Error of the default settings against the traced reference, and what each approximation has to do with it.
     Judge(judge::Options),
+    /// Whether `worsted render --max-error` and `--max-ms` keep their promise in scenes they were not fitted to.
+    Budgets(budgets::Options),
 }
 
 fn main() -> ExitCode {
@@ -74,6 +78,7 @@ fn run(args: &Args) -> Result<(), Error> {
         Command::Tables => tables::run(),
         Command::ShadowCost(options) => on_device(args, |stage| shadow_cost::run(stage, options)),
         Command::Judge(options) => on_device(args, |stage| judge::run(stage, options)),
+        Command::Budgets(options) => on_device(args, |stage| budgets::run(stage, options)),
         Command::ShadowTables(options) => on_device(args, |stage| shadow_tables::run(stage, options)),
     }
 }
