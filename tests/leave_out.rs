@@ -16,20 +16,12 @@ use worsted::vulkan::{Device, DeviceChoice};
 #[path = "support/device.rs"]
 mod device;
 use device::shared;
+#[path = "../tools/minimal/bare.rs"]
+mod bare;
+use bare::MINIMAL;
 
-/// One yarn without loops and hairs, one light, the simple model: nothing else.
-const MINIMAL: &[&str] = &[
-    "shading.model='simple'",
-    "shading.ambient=false",
-    "shadow.map=false",
-    "shadow.self=false",
-    "occlusion.mode='none'",
-    "occlusion.yarns=false",
-    "debug.fibers='every'",
-    "yarn.hair_density_per_mm=0",
-    "yarn.loop_density_per_mm=0",
-    "camera.distance_mm=20",
-];
+/// Beside those.
+const CAMERA: &str = "camera.distance_mm=20";
 
 /// A scene with one thing more than [`MINIMAL`].
 struct With {
@@ -160,7 +152,8 @@ struct Made {
 }
 
 fn made(device: &Arc<Device>, model: &Path, with: &With) -> Made {
-    let sets: Vec<String> = MINIMAL.iter().chain(with.sets).map(|set| (*set).to_owned()).collect();
+    let sets: Vec<String> =
+        MINIMAL.iter().chain(&[CAMERA]).chain(with.sets).map(|set| (*set).to_owned()).collect();
     let scene = Scene::load(model, &sets).expect("a scene that loads");
     let sampling = Sampling::new(with.samples).expect("a number that is allowed");
     let request = Request { size: [48, 32], sampling, statistics: with.statistics, profile: false };
@@ -241,7 +234,8 @@ fn a_scene_makes_the_objects_it_needs_and_no_others() {
 fn out_of_view(device: &Arc<Device>, model: &Path) {
     let draw = |target: &str, culling: bool| {
         let sets = [format!("camera.target_mm={target}"), format!("quality.culling={culling}")];
-        let sets: Vec<String> = MINIMAL.iter().map(|set| (*set).to_owned()).chain(sets).collect();
+        let sets: Vec<String> =
+            MINIMAL.iter().chain(&[CAMERA]).map(|set| (*set).to_owned()).chain(sets).collect();
         let scene = Scene::load(model, &sets).expect("a scene that loads");
         let sampling = Sampling::new(1).expect("one sample is allowed");
         let request = Request { size: [48, 32], sampling, statistics: true, profile: false };
@@ -265,7 +259,8 @@ fn light_that_misses(device: &Arc<Device>, model: &Path) {
     let draw = |spot: &str| {
         let lights = format!("light=[{{}}{spot}, {{direction = [0, -1, 0.2]}}]");
         let sets = ["shadow.map=true".to_owned(), lights];
-        let sets: Vec<String> = MINIMAL.iter().map(|set| (*set).to_owned()).chain(sets).collect();
+        let sets: Vec<String> =
+            MINIMAL.iter().chain(&[CAMERA]).map(|set| (*set).to_owned()).chain(sets).collect();
         let scene = Scene::load(model, &sets).expect("a scene that loads");
         let sampling = Sampling::new(1).expect("one sample is allowed");
         let request = Request { size: [48, 32], sampling, statistics: false, profile: false };

@@ -26,6 +26,6 @@ layout(constant_id = 20) const bool TEXTURE_OCCLUSION = false; // ambient light 
 layout(constant_id = 21) const bool YARN_OCCLUSION = true; // other yarns hide parts of the sky
 layout(constant_id = 22) const bool VERTEX_SHADING = true; // fibers that are thin in the picture are shaded at their vertices
 layout(constant_id = 23) const bool AT_VERTICES = false; // this pipeline draws those, and no others
-layout(constant_id = 24) const bool CHORD_SHADOW = false; // and that ply by ply, not by place in the yarn
+layout(constant_id = 24) const bool CHORD_SHADOW = false; // light is dimmed in the yarn ply by ply, not by place
 
 #endif

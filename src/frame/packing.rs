@@ -1,7 +1,6 @@
 //! Pieces of yarn packed for the device, in parts that storage buffers have room for.
 
 use crate::gpu_types::{Curve, LENGTH_STRIPE, Piece};
-use crate::math::curve::Basis;
 use crate::yarn::packed::{MOST_CURVES, PackedCurve, length_units, packed_phase, packed_piece, packed_rate};
 use crate::yarn::strand::Strands;
 use std::ops::Range;
@@ -42,11 +41,6 @@ pub fn parts(strands: &Strands, most_points: usize) -> Vec<Part> {
     parts
 }
 
-/// From one piece's first control point to the next one's; `POINT_STRIDE` in GLSL.
-fn point_stride(basis: Basis) -> u32 {
-    if basis == Basis::Bezier { 3 } else { 1 }
-}
-
 /// The curve whose place in a part's table is 0.
 fn first_curve(strands: &Strands, part: &Part) -> usize {
     strands.pieces.get(part.pieces.start).map_or(0, |piece| piece.curve)
@@ -77,7 +71,7 @@ pub fn curves(strands: &Strands, part: &Part) -> Vec<Curve> {
 
 /// The same in the twin's words.
 pub fn packed_curves(strands: &Strands, part: &Part) -> Vec<PackedCurve> {
-    let (first_curve, stride) = (first_curve(strands, part), point_stride(strands.basis));
+    let (first_curve, stride) = (first_curve(strands, part), strands.basis.point_stride() as u32);
     let mut curves = Vec::new();
     for (index, piece) in strands.pieces[part.pieces.clone()].iter().enumerate() {
         let place = piece.curve - first_curve;
@@ -123,7 +117,7 @@ fn curve(packed: &PackedCurve) -> Curve {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::curve;
+    use crate::math::curve::{self, Basis};
     use crate::yarn::packed::unpacked_segment;
     use crate::yarn::params::YarnParams;
     use crate::yarn::presets;
@@ -149,7 +143,7 @@ mod tests {
                 let words = |index: usize| [pieces[index].length_low, pieces[index].length_high_curve];
                 let curve = &curves[words(index)[1] as usize >> 10];
                 assert_eq!(curve.curve as usize, truth.curve);
-                let stride = point_stride(strands.basis);
+                let stride = strands.basis.point_stride() as u32;
                 let found = unpacked_segment(words(index), words(index + 1), curve, index as u32, stride);
                 assert_eq!(found.first_point as usize + part.points.start, truth.first_point);
                 assert!(part.points.end >= truth.first_point + 4);

@@ -5,8 +5,8 @@ use crate::gpu_types::{ShadowView, Statistics};
 use crate::precompute::chord_shadow::ChordShadow;
 use crate::precompute::core_texture::core_texels;
 use crate::precompute::self_shadow::SelfShadowSize;
+use crate::scene::features::shadows_by_place;
 use crate::scene::{Fabric, Scene};
-use crate::yarn::inside::fits_table;
 
 /// Bytes of a texel or an entry.
 const HALF: u64 = 2;
@@ -44,9 +44,9 @@ pub fn saved_bytes(scene: &Scene, fabric: &Fabric, what: &str) -> Option<u64> {
             texels * (views.max(2) * MAP_TEXEL + DEPTH_TEXEL) + views * size_of::<ShadowView>() as u64
         }
         "self_shadow" => {
-            let by_place = quality.self_shadow_texels.is_some() || fits_table(&fabric.yarn);
             let size = SelfShadowSize::of(quality.self_shadow_texels);
-            let extent = if by_place { size.extent() } else { ChordShadow::EXTENT };
+            let extent =
+                if shadows_by_place(quality, &fabric.yarn) { size.extent() } else { ChordShadow::EXTENT };
             extent.iter().map(|&side| u64::from(side)).product::<u64>() * HALF
         }
         "scattering_tables" => LOBES * FOUR_FLOATS * u64::from(quality.scattering_entries),

@@ -171,11 +171,6 @@ impl Work {
         Self { basis, curve, keep, repairs: Vec::new(), tolerance: DUPLICATE_SEGMENTS * median }
     }
 
-    /// Control points from one point on the curve to the next.
-    fn stride(&self) -> usize {
-        if self.basis == Basis::Bezier { 3 } else { 1 }
-    }
-
     fn same(&self, a: DVec3, b: DVec3) -> bool {
         a.distance(b) <= self.tolerance
     }
@@ -237,17 +232,18 @@ impl Work {
 
     fn open_wide_loop(&mut self) {
         let n = self.curve.points.len();
-        if !self.curve.closed || n <= self.stride() {
+        if !self.curve.closed || n <= self.basis.point_stride() {
             return;
         }
-        let knots: Vec<DVec3> = self.curve.points.iter().copied().step_by(self.stride()).collect();
+        let knots: Vec<DVec3> =
+            self.curve.points.iter().copied().step_by(self.basis.point_stride()).collect();
         let length: f64 = knots.windows(2).map(|p| p[0].distance(p[1])).sum();
         let mean_segment = length / (knots.len() - 1) as f64;
         let gap = knots[0].distance(knots[knots.len() - 1]);
         if gap > OPEN_GAP_SEGMENTS * mean_segment {
             self.curve.closed = false;
             // A Bezier's closing piece takes its two handles along.
-            self.truncate(n - self.stride() + 1);
+            self.truncate(n - self.basis.point_stride() + 1);
             self.repairs.push(RepairKind::LoopOpened { gap, mean_segment });
         }
     }

@@ -15,6 +15,13 @@ pub enum Basis {
     Polyline,
 }
 
+impl Basis {
+    /// From one piece's first control point to the next one's; `POINT_STRIDE` in GLSL.
+    pub fn point_stride(self) -> usize {
+        if self == Self::Bezier { 3 } else { 1 }
+    }
+}
+
 /// One yarn's control points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {

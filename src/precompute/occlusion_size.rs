@@ -1,5 +1,6 @@
 //! How fine a table of ambient occlusion must be for a yarn: the error is measured where it is largest.
 
+use super::chord_shadow::Plies;
 use super::chord_table::ChordTable;
 use super::occlusion_table::{OCCLUSION_ACROSS, OCCLUSION_LIMIT, baked_occlusion, exact_occlusion};
 use super::optical_depth::CrossSection;
@@ -59,12 +60,8 @@ fn largest_error(
 /// Places in outer radii: every other one within a texel and a half of a ply's outline, the rest all over plies, the
 /// denser the nearer to their axes.
 fn tried(yarn: &YarnParams, across: u32) -> impl Iterator<Item = DVec2> {
-    let radius = yarn.outer_radius_mm();
-    let (offset, axes) = (
-        DVec2::new(yarn.ply_offset_mm() / radius, 0.0),
-        DVec2::new(yarn.ellipse_short_mm, yarn.ellipse_long_mm) / radius,
-    );
-    let (plies, texel) = (yarn.ply_count, 2.0 / f64::from(across - 1));
+    let Plies { count, offset, axes, .. } = Plies::new(yarn);
+    let texel = 2.0 / f64::from(across - 1);
     (0..).zip(places(PLACES)).map(move |(index, (place, around))| {
         let in_ply = if index % 2 == 0 {
             let outward = (around / axes).normalize();
@@ -72,8 +69,8 @@ fn tried(yarn: &YarnParams, across: u32) -> impl Iterator<Item = DVec2> {
         } else {
             place.length_squared() * around * axes
         };
-        let turn = DVec2::from_angle(TAU * f64::from(index / 2 % plies) / f64::from(plies));
-        turn.rotate(offset + in_ply).clamp_length_max(1.0)
+        let turn = DVec2::from_angle(TAU * f64::from(index / 2 % count) / f64::from(count));
+        turn.rotate(DVec2::new(offset, 0.0) + in_ply).clamp_length_max(1.0)
     })
 }
 

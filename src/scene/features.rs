@@ -1,10 +1,11 @@
 //! Scene to features: the only place that leaves things out.
 
 use super::Fabric;
-use super::file::{DebugView, FibersShown, OcclusionMode, SceneFile, ShadingModel};
+use super::file::{DebugView, FibersShown, OcclusionMode, QualityTable, SceneFile, ShadingModel};
 use crate::math::curve::Basis;
 use crate::yarn::flyaway::Flyaways;
 use crate::yarn::inside::fits_table;
+use crate::yarn::params::YarnParams;
 use std::collections::BTreeMap;
 
 /// What drawing one fabric needs. Pipelines are specialised by it, so that what is left out costs
@@ -31,7 +32,7 @@ pub struct Features {
     pub soft_shadows: bool,
     /// Light is dimmed inside the yarn.
     pub self_shadow: bool,
-    /// And that ply by ply, not by place in the yarn.
+    /// And that ply by ply, not by place in the yarn: [`shadows_by_place`].
     pub chord_shadow: bool,
     /// Ambient light is dimmed by place inside the yarn, not by distance.
     pub texture_occlusion: bool,
@@ -93,6 +94,12 @@ pub enum SpecializationId {
     ChordShadow = 24,
 }
 
+/// Whether light is dimmed inside a yarn by the table over its whole cross-section, where it is: a scene that states that
+/// table's size gets it.
+pub fn shadows_by_place(quality: &QualityTable, yarn: &YarnParams) -> bool {
+    quality.self_shadow_texels.is_some() || fits_table(yarn)
+}
+
 impl Features {
     /// What `fabric` needs in this scene; `statistics` when someone asked for them.
     pub fn new(file: &SceneFile, fabric: &Fabric, statistics: bool) -> Self {
@@ -118,8 +125,6 @@ impl Features {
         let diffuse = diffuse && (lit || ambient);
         let soft = file.light().iter().any(|light| light.shines() && light.angular_size_deg > 0.0);
         let self_shadow = file.shadow.inside && (lit || ambient && lobes);
-        // A scene that states the table's size gets the table.
-        let by_place = file.quality.self_shadow_texels.is_some();
         let dimmed = ambient || file.debug.view == DebugView::Occlusion;
         Self {
             basis: fabric.strands.basis,
@@ -130,7 +135,7 @@ impl Features {
             shadow_map: lit && file.shadow.map,
             soft_shadows: lit && file.shadow.map && soft,
             self_shadow,
-            chord_shadow: self_shadow && !by_place && !fits_table(&fabric.yarn),
+            chord_shadow: self_shadow && !shadows_by_place(&file.quality, &fabric.yarn),
             statistics,
             specular,
             diffuse,

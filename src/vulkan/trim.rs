@@ -225,7 +225,8 @@ fn drop_uncalled(module: &mut Module) {
     module.functions.retain(|function| function.def_id().is_some_and(|id| called.contains(&id)));
 }
 
-/// Takes out resources, and values from and for other stages, that no function names, and every word about what is not there any more.
+/// Takes out resources, and values from and for other stages, that no function names, and every word about what is not
+/// there any more.
 fn drop_unread(module: &mut Module) {
     let read: HashSet<Word> = module
         .functions

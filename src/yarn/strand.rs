@@ -194,7 +194,7 @@ fn append(all: &mut Strands, index: usize, made: Prepared) {
 
 fn prepared(index: usize, curve: &Curve, basis: Basis, yarn: &YarnParams, seed: u64) -> Prepared {
     let points = window_points(curve, basis);
-    let stride = if basis == Basis::Bezier { 3 } else { 1 };
+    let stride = basis.point_stride();
     let starts: Vec<usize> = (0..points.len().saturating_sub(3)).step_by(stride).collect();
     let window = |&first: &usize| -> [DVec3; 4] { std::array::from_fn(|k| points[first + k]) };
     let beziers: Vec<_> = starts.iter().map(|s| bezier_from_basis(&window(s), basis)).collect();

@@ -28,8 +28,8 @@ pub struct Other {
     pub sets: &'static [&'static str],
 }
 
-/// Like what was fitted, but for cloth, camera, size and fly-aways: here a promise must be made and kept. The margins
-/// were set by the first, and by nothing else here. The last two are of another yarn, and farther away than
+/// Like what was fitted, but for cloth, camera, size and fly-aways: here a promise must be made and kept. The margin of
+/// errors was set by the first, and by nothing else here; that of times by the first and the second. The last two are of another yarn, and farther away than
 /// anything fitted: here it must be refused.
 pub const OTHERS: [Other; 6] = [
     Other {

@@ -2,10 +2,12 @@
 //! shadow, by `Renderer` and by a pipeline that can do nothing else, in turns. Exit code 1 where the renderer takes over
 //! 1.1 times the time, or draws something else.
 
+mod bare;
 #[path = "../glsl.rs"]
 mod glsl;
 mod hand_cut;
 
+use bare::MINIMAL;
 use hand_cut::HandCut;
 use std::path::Path;
 use std::process::ExitCode;
@@ -26,18 +28,6 @@ const SAME: f64 = 1e-3;
 /// Pictures of either kind.
 const FRAMES: u32 = 15;
 const SIZE: [u32; 2] = [640, 480];
-/// Everything that a default scene has besides is left out.
-const MINIMAL: [&str; 9] = [
-    "shading.model='simple'",
-    "shading.ambient=false",
-    "shadow.map=false",
-    "shadow.self=false",
-    "occlusion.mode='none'",
-    "occlusion.yarns=false",
-    "debug.fibers='every'",
-    "yarn.hair_density_per_mm=0",
-    "yarn.loop_density_per_mm=0",
-];
 /// A wavy yarn across the picture.
 const KNOTS: i32 = 120;
 
