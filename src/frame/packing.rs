@@ -3,6 +3,7 @@
 use crate::gpu_types::{Curve, LENGTH_STRIPE, Piece};
 use crate::yarn::packed::{MOST_CURVES, PackedCurve, length_units, packed_phase, packed_piece, packed_rate};
 use crate::yarn::strand::Strands;
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// Some of a fabric's pieces, in a row, and the control points they read.
@@ -61,7 +62,7 @@ pub fn pieces(strands: &Strands, part: &Part) -> Vec<Piece> {
         let [length_low, length_high_curve] = words(index);
         Piece { length_low, length_high_curve }
     };
-    (part.pieces.start..=part.pieces.end).map(packed).collect()
+    (part.pieces.start..part.pieces.end + 1).into_par_iter().map(packed).collect()
 }
 
 /// A part's curves, from that of its first piece on.

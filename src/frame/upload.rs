@@ -22,6 +22,7 @@ use crate::yarn::params::Spread;
 use crate::yarn::table;
 use glam::{DMat4, DVec3, DVec4};
 use half::f16;
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Control points relative to the scene's origin: subtracted in f64, so that far-off models keep
@@ -33,7 +34,7 @@ pub fn control_points(fabric: &Fabric, origin_mm: DVec3) -> Vec<ControlPoint> {
         position: (*position - origin_mm).as_vec3().to_array(),
         normal_octahedral: octahedral_from_normal(*normal, *tangent),
     };
-    strands.points.iter().zip(&strands.normals).zip(&tangents).map(point).collect()
+    strands.points.par_iter().zip(&strands.normals).zip(&tangents).map(point).collect()
 }
 
 /// The fibers of a cross-section.

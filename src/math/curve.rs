@@ -75,10 +75,23 @@ pub fn bezier_from_basis(p: &[DVec3; 4], basis: Basis) -> [DVec3; 4] {
     }
 }
 
+/// Share of a piece's control polygon that may be longer than its chord where one rule spans the whole piece.
+const GENTLE: f64 = 0.1;
+
 /// Arc length of a cubic piece from t = `start` to t = `end`, in the points' unit. Gauss-Legendre
-/// quadrature on two halves; relative error below 1e-6 for pieces without a cusp.
+/// quadrature, on two halves where the piece bends much; relative error below 1e-6 for pieces without a cusp.
 pub fn arc_length(p: &[DVec3; 4], basis: Basis, start: f64, end: f64) -> f64 {
-    let speed = |t: f64| curve_point(p, basis, t).derivative.length();
+    let b = bezier_from_basis(p, basis);
+    let [d0, d1, d2] = [b[1] - b[0], b[2] - b[1], b[3] - b[2]];
+    // The derivative as a polynomial: it is asked for often, by the million pieces.
+    let [constant, linear, square] = [3.0 * d0, 6.0 * (d1 - d0), 3.0 * (d0 - 2.0 * d1 + d2)];
+    let speed = |t: f64| (constant + t * (linear + t * square)).length();
+    let longest = d0.length().max(d1.length()).max(d2.length());
+    let shortest_along = [d0, d1, d2].map(|d| d.dot(b[3] - b[0])).into_iter().fold(f64::INFINITY, f64::min);
+    let gentle = shortest_along >= (1.0 - GENTLE) * longest * (b[3] - b[0]).length();
+    if gentle {
+        return super::quadrature::gauss_legendre(start, end, speed);
+    }
     let middle = 0.5 * (start + end);
     super::quadrature::gauss_legendre(start, middle, speed)
         + super::quadrature::gauss_legendre(middle, end, speed)

@@ -36,10 +36,16 @@ pub fn octahedral_from_normal(normal: DVec3, tangent: DVec3) -> u32 {
         // Steps over the square's edge would come back elsewhere.
         .filter(|c| c.iter().all(|c| c.abs() <= 32767))
         .map(|[x, y]| u32::from(x as i16 as u16) | (u32::from(y as i16 as u16) << 16));
+    // Squared, so that no length is divided by: points are packed by the million.
     let turned = |bits: u32| {
-        let found = unit_from_octahedral(bits);
+        let found = along_octahedral(bits);
+        let (length_squared, toward) = (found.length_squared(), found.dot(normal));
         // Beyond a fold a step may lead far away.
-        if found.dot(normal) < 0.999 { f64::INFINITY } else { found.dot(across).abs() }
+        if toward < 0.0 || toward * toward < 0.998 * length_squared {
+            return f64::INFINITY;
+        }
+        let across = found.dot(across);
+        across * across / length_squared
     };
     let key = |bits: u32| (turned(bits), bits);
     packed.map(key).fold(key(nearest), |best, found| if found.0 < best.0 { found } else { best }).1
@@ -47,13 +53,18 @@ pub fn octahedral_from_normal(normal: DVec3, tangent: DVec3) -> u32 {
 
 /// The unit vector that [`octahedral_from_unit`] packed.
 pub fn unit_from_octahedral(bits: u32) -> DVec3 {
+    along_octahedral(bits).normalize()
+}
+
+/// A vector along the one that [`octahedral_from_unit`] packed.
+fn along_octahedral(bits: u32) -> DVec3 {
     let x = f64::from(bits as u16 as i16) / 32767.0;
     let y = f64::from((bits >> 16) as u16 as i16) / 32767.0;
     let mut v = DVec3::new(x, y, 1.0 - x.abs() - y.abs());
     let fold = (-v.z).max(0.0);
     v.x += if v.x >= 0.0 { -fold } else { fold };
     v.y += if v.y >= 0.0 { -fold } else { fold };
-    v.normalize()
+    v
 }
 
 /// Some unit vector perpendicular to the unit vector `v`: never degenerate (Duff et al. 2017).
@@ -63,20 +74,24 @@ pub fn any_perpendicular(v: DVec3) -> DVec3 {
     DVec3::new(1.0 + s * v.x * v.x * a, s * v.x * v.y * a, -s * v.x)
 }
 
+/// v / |v|, where v has a direction.
+pub fn direction_of(v: DVec3) -> Option<DVec3> {
+    let largest = v.abs().max_element();
+    (largest * largest > NO_DIRECTION).then(|| (v / largest).normalize())
+}
+
 /// v / |v|, or `fallback` where v has no direction.
 pub fn direction_or(v: DVec3, fallback: DVec3) -> DVec3 {
-    let largest = v.abs().max_element();
-    if largest * largest > NO_DIRECTION { (v / largest).normalize() } else { fallback }
+    direction_of(v).unwrap_or(fallback)
 }
 
 /// The part of `normal` perpendicular to the unit `tangent`, as a unit vector. Where the two are nearly
 /// parallel the difference is rounding that may point anywhere, along the tangent too: what is left of
 /// its direction after a second subtraction is perpendicular, or too short to be used.
 pub fn normal_perpendicular_to(tangent: DVec3, normal: DVec3) -> DVec3 {
-    let some = any_perpendicular(tangent);
-    let n = direction_or(normal - tangent * tangent.dot(normal), some);
-    let n = n - tangent * tangent.dot(n);
-    if n.length_squared() > 0.5 { n.normalize() } else { some }
+    let across = |v: DVec3| v - tangent * tangent.dot(v);
+    let found = direction_of(across(normal)).map(across).filter(|n| n.length_squared() > 0.5);
+    found.map_or_else(|| any_perpendicular(tangent), DVec3::normalize)
 }
 
 #[cfg(test)]

@@ -18,8 +18,18 @@ use std::f64::consts::PI;
 const DIRECTIONS: u32 = 32;
 /// Along the yarn to either side, in its outer radii: its own tube, which other tables are about.
 const OWN: f64 = 4.0;
-/// Straight parts that stand for a piece of yarn.
-const PARTS: usize = 2;
+/// How closely yarns are looked at.
+#[derive(Clone, Copy, Debug)]
+struct Detail {
+    /// Most between two places along the yarn that are looked from, in its outer radii.
+    apart: f64,
+    /// Length in outer radii above which two straight parts stand for a piece of yarn; up to it, one.
+    part: f64,
+}
+
+/// As closely as so few directions are worth: of knit yarn of 64 points a loop the root mean square error is 0.067, 0.076
+/// from every point, and 0.088 with places twice as far apart.
+const DETAIL: Detail = Detail { apart: 2.0, part: 2.0 };
 /// Share of the search tree that is put in better order: little more makes looks faster.
 const REINSERTED: f32 = 0.05;
 /// Levels that the search tree's stack has room for, fewer by one for safety.
@@ -59,14 +69,18 @@ pub fn sky_gathered(toward: DVec3, outward: DVec3) -> DVec3 {
 /// rays from the centre line: constant, and slope by direction in world space. Of tubes so many in one
 /// place that no search tree holds them nothing is hidden.
 pub fn bake_skies(fabrics: &[SkyYarns<'_>]) -> Vec<Vec<[f16; 4]>> {
-    let Some(tubes) = Tubes::new(fabrics) else {
+    baked(fabrics, DETAIL, DIRECTIONS)
+}
+
+fn baked(fabrics: &[SkyYarns<'_>], detail: Detail, directions: u32) -> Vec<Vec<[f16; 4]>> {
+    let Some(tubes) = Tubes::new(fabrics, detail.part) else {
         let open = |yarns: &SkyYarns<'_>| vec![halves(OPEN_SKY); yarns.strands.points.len()];
         return fabrics.iter().map(open).collect();
     };
-    let directions: Vec<DVec3> = (0..DIRECTIONS).map(direction).collect();
+    let directions: Vec<DVec3> = (0..directions).map(|index| direction(index, directions)).collect();
     let of_fabric = |(fabric, yarns): (usize, &SkyYarns<'_>)| {
         let places = places(fabric, yarns);
-        let looked = looked_from(&places, yarns.outer_radius_mm);
+        let looked = looked_from(&places, detail.apart * yarns.outer_radius_mm);
         let skies: Vec<DVec4> =
             looked.par_iter().map(|&place| tubes.sky(&places[place], &directions)).collect();
         between(&places, &looked, &skies).into_iter().map(halves).collect()
@@ -78,9 +92,9 @@ fn halves(sky: DVec4) -> [f16; 4] {
     sky.to_array().map(f16::from_f64)
 }
 
-/// Evenly spread over the sphere (the golden spiral).
-fn direction(index: u32) -> DVec3 {
-    let z = 1.0 - (2.0 * f64::from(index) + 1.0) / f64::from(DIRECTIONS);
+/// One of `count` that are evenly spread over the sphere (the golden spiral).
+fn direction(index: u32, count: u32) -> DVec3 {
+    let z = 1.0 - (2.0 * f64::from(index) + 1.0) / f64::from(count);
     let azimuth = (f64::from(index) + 0.5) * PI * (3.0 - 5f64.sqrt());
     let across = (1.0 - z * z).sqrt();
     // Half a step ahead, so that none is at right angles to an axis: where a part is 0 the search tree misses.
@@ -133,7 +147,7 @@ fn places(fabric: usize, yarns: &SkyYarns<'_>) -> Vec<Place> {
     places
 }
 
-/// Places, an outer radius apart at most, that are looked from: the first and last of each run along a curve among
+/// Places, `apart_mm` apart at most, that are looked from: the first and last of each run along a curve among
 /// them. The sky changes little between two of them, and looking takes long.
 fn looked_from(places: &[Place], apart_mm: f64) -> Vec<usize> {
     let mut looked: Vec<usize> = Vec::new();
@@ -177,8 +191,8 @@ struct Tube {
     start: DVec3,
     along: DVec3,
     radius: f64,
-    fabric: usize,
-    curve: usize,
+    fabric: u32,
+    curve: u32,
     /// Along the curve: its middle, and half of it.
     middle_mm: f64,
     half_mm: f64,
@@ -186,7 +200,7 @@ struct Tube {
 
 impl Tube {
     fn is_of(&self, place: &Place) -> bool {
-        if (self.fabric, self.curve) != (place.fabric, place.curve) {
+        if (self.fabric, self.curve) != (place.fabric as u32, place.curve as u32) {
             return false;
         }
         let apart = (self.middle_mm - place.length_mm).abs();
@@ -226,9 +240,9 @@ struct Tubes {
 }
 
 impl Tubes {
-    fn new(fabrics: &[SkyYarns<'_>]) -> Option<Self> {
-        let tubes: Vec<Tube> =
-            fabrics.iter().enumerate().flat_map(|(fabric, yarns)| tubes_of(fabric, yarns)).collect();
+    fn new(fabrics: &[SkyYarns<'_>], part: f64) -> Option<Self> {
+        let of_fabric = |(fabric, yarns)| tubes_of(fabric, yarns, part * yarns.outer_radius_mm);
+        let tubes: Vec<Tube> = (0..).zip(fabrics).flat_map(of_fabric).collect();
         let corners = |tube: &Tube| {
             let (end, radius) = (tube.start + tube.along, DVec3::splat(tube.radius));
             (tube.start.min(end) - radius, tube.start.max(end) + radius)
@@ -265,23 +279,24 @@ impl Tubes {
         let (count, sum) =
             open.fold((0.0, DVec3::ZERO), |(count, sum), direction| (count + 1.0, sum + *direction));
         let slope = 3.0 * sum;
-        DVec4::new(count, slope.x, slope.y, slope.z) / f64::from(DIRECTIONS)
+        DVec4::new(count, slope.x, slope.y, slope.z) / directions.len() as f64
     }
 }
 
-fn tubes_of(fabric: usize, yarns: &SkyYarns<'_>) -> impl Iterator<Item = Tube> {
+/// The yarns of a fabric, a piece longer than `part_mm` in two.
+fn tubes_of<'a>(fabric: u32, yarns: &SkyYarns<'a>, part_mm: f64) -> impl Iterator<Item = Tube> + use<'a> {
     let (strands, radius) = (yarns.strands, yarns.hiding_radius_mm);
     strands.pieces.iter().flat_map(move |piece| {
         let bezier = strands.bezier(piece);
-        let knots: [DVec3; PARTS + 1] =
-            std::array::from_fn(|i| bezier_point(&bezier, i as f64 / PARTS as f64).position);
-        let half_mm = 0.5 * piece.length_mm / PARTS as f64;
-        (0..PARTS).map(move |i| Tube {
-            start: knots[i],
-            along: knots[i + 1] - knots[i],
+        let parts = if piece.length_mm > part_mm { 2 } else { 1 };
+        let knot = move |i: usize| bezier_point(&bezier, i as f64 / parts as f64).position;
+        let half_mm = 0.5 * piece.length_mm / parts as f64;
+        (0..parts).map(move |i| Tube {
+            start: knot(i),
+            along: knot(i + 1) - knot(i),
             radius,
             fabric,
-            curve: piece.curve,
+            curve: piece.curve as u32,
             middle_mm: piece.length_start_mm + (2 * i + 1) as f64 * half_mm,
             half_mm,
         })

@@ -1,4 +1,6 @@
 use super::*;
+use crate::knit::params::KnitParams;
+use crate::knit::tube::tube;
 use crate::math::curve::Curve;
 use crate::yarn::presets;
 use crate::yarn::strand::strands;
@@ -99,12 +101,47 @@ fn places_between_those_looked_from_have_skies_between_theirs() {
         let (from, to) = (&places[pair[0]], &places[pair[1]]);
         assert!(from.curve == to.curve && to.length_mm - from.length_mm <= 1.0 + 1e-9, "{from:?} {to:?}");
     }
-    let tubes = Tubes::new(&both).unwrap();
-    let directions: Vec<DVec3> = (0..DIRECTIONS).map(direction).collect();
+    let tubes = Tubes::new(&both, DETAIL.part).unwrap();
+    let directions: Vec<DVec3> = (0..DIRECTIONS).map(|i| direction(i, DIRECTIONS)).collect();
     let skies: Vec<DVec4> = looked.iter().map(|&at| tubes.sky(&places[at], &directions)).collect();
     for (place, found) in places.iter().zip(between(&places, &looked, &skies)) {
         assert!((found - tubes.sky(place, &directions)).abs().max_element() < 0.12, "{place:?}");
     }
+}
+
+/// Root mean square and largest difference of two bakes, over the constant and the slope's parts.
+fn difference(a: &[[f16; 4]], b: &[[f16; 4]]) -> [f64; 2] {
+    let apart = |(a, b): (&[f16; 4], &[f16; 4])| {
+        std::array::from_fn::<f64, 4, _>(|i| f64::from(a[i]) - f64::from(b[i]))
+    };
+    let all: Vec<f64> = a.iter().zip(b).flat_map(apart).collect();
+    let squares: f64 = all.iter().map(|d| d * d).sum();
+    [(squares / all.len() as f64).sqrt(), all.iter().fold(0.0, |most, d| most.max(d.abs()))]
+}
+
+/// What lies between two places along the yarn is worth no look: few directions err by more, and a line between two
+/// looks evens out what they err by.
+#[test]
+fn yarns_are_looked_at_as_closely_as_the_directions_are_worth() {
+    let yarn = presets::yarn("worsted_3ply").unwrap();
+    let knit = KnitParams {
+        courses: 4,
+        wales: 12,
+        yarn_radius_mm: yarn.outer_radius_mm(),
+        wale_spacing_mm: None,
+        course_spacing_mm: None,
+        points_per_loop: 64,
+    };
+    let strands = strands(&tube(&knit).unwrap().curves, Basis::CatmullRom, &yarn, 1);
+    let radius = yarn.outer_radius_mm();
+    let yarns = [SkyYarns { strands: &strands, hiding_radius_mm: 0.8 * radius, outer_radius_mm: radius }];
+    let of = |detail, directions| baked(&yarns, detail, directions).remove(0);
+    let finest = Detail { apart: 0.0, part: 0.0 };
+    let truth = of(finest, 640);
+    let error = |detail| difference(&truth, &of(detail, DIRECTIONS))[0];
+    let [chosen, finest, wide] = [DETAIL, finest, Detail { apart: 24.0, ..DETAIL }].map(error);
+    println!("{chosen:.4} as chosen, {finest:.4} from everywhere, {wide:.4} from far between");
+    assert!(chosen < finest && wide > 1.3 * finest, "{chosen} {finest} {wide}");
 }
 
 /// Periods of very long open yarn wrap as those of closed yarn do: it is not closed by that.

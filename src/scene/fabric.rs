@@ -15,8 +15,9 @@ use crate::yarn::contact::estimate_contact_radius;
 use crate::yarn::params::YarnParams;
 #[cfg(test)]
 use crate::yarn::presets;
-use crate::yarn::strand::{MOST_MIGRATIONS, Strands, strands};
+use crate::yarn::strand::{MOST_MIGRATIONS, Piece, Strands, strands};
 use glam::DVec3;
+use rayon::prelude::*;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -138,18 +139,17 @@ const MOST_TURNS: f64 = 1e5;
 
 /// Whether the device can count the turns of every piece, and the periods of every closed curve.
 fn check_turns(strands: &Strands) -> Result<(), String> {
-    for piece in &strands.pieces {
-        let turns = [piece.turns.ply, piece.turns.fiber, piece.turns.migration];
-        let counts = turns.map(|turns| turns.delta.abs());
-        // Written so that what is no number is refused.
-        let counted = counts.iter().all(|count| *count <= MOST_TURNS);
-        if !counted {
-            let (curve, length) = (piece.curve, piece.length_mm);
-            let most = counts.into_iter().fold(0.0, f64::max);
-            return Err(format!(
-                "curve {curve}: expected at most {MOST_TURNS} turns over one piece, found {most:.0} in {length} mm"
-            ));
-        }
+    let counts = |piece: &Piece| {
+        [piece.turns.ply, piece.turns.fiber, piece.turns.migration].map(|turns| turns.delta.abs())
+    };
+    // Written so that what is no number is refused.
+    let uncounted = |piece: &&Piece| !counts(piece).iter().all(|count| *count <= MOST_TURNS);
+    if let Some(piece) = strands.pieces.par_iter().find_first(uncounted) {
+        let (curve, length) = (piece.curve, piece.length_mm);
+        let most = counts(piece).into_iter().fold(0.0, f64::max);
+        return Err(format!(
+            "curve {curve}: expected at most {MOST_TURNS} turns over one piece, found {most:.0} in {length} mm"
+        ));
     }
     match strands.period_counts.iter().position(|count| *count > MOST_MIGRATIONS) {
         None => Ok(()),
@@ -192,7 +192,7 @@ fn world_curves(loaded: &Loaded, mm_per_unit: f64) -> Vec<Curve> {
         points: curve.points.iter().map(|&p| turn(p) * mm_per_unit).collect(),
         closed: curve.closed,
     };
-    loaded.curves.curves.iter().map(place).collect()
+    loaded.curves.curves.par_iter().map(place).collect()
 }
 
 #[cfg(test)]

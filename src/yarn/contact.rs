@@ -9,6 +9,7 @@
 use std::ops::Range;
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::math::curve::{Basis, Curve, curve_point};
 
@@ -33,6 +34,8 @@ const MIN_PIECES: usize = 50_000;
 /// Links whose neighbourhood is searched, in evenly spread blocks; the others are only searched for.
 const MAX_QUERIES: usize = 65_536;
 const BLOCK: usize = 64;
+/// Lines that are cut together.
+const AT_A_TIME: usize = 64;
 /// Links looked at in one query at most; dense packing needs some 2000. More is a knot of garbage, where
 /// an answer in bounded time is worth more than the exact one.
 const MAX_VISITS: usize = 4096;
@@ -45,7 +48,7 @@ const SAMPLES: usize = 4;
 ///
 /// Takes time proportional to the number of points.
 pub fn estimate_contact_radius(curves: &[Curve], basis: Basis) -> Option<f64> {
-    let lines: Vec<Vec<DVec3>> = curves.iter().map(|c| evaluate(c, basis)).collect();
+    let lines: Vec<Vec<DVec3>> = curves.par_iter().map(|c| evaluate(c, basis)).collect();
     let length: f64 = lines.iter().flat_map(|line| line.windows(2)).map(|p| p[0].distance(p[1])).sum();
     let pieces: usize = curves.iter().map(|c| piece_count(c, basis)).sum();
     if !length.is_finite() || length <= 0.0 {
@@ -157,10 +160,18 @@ impl Strands {
     fn new(lines: &[Vec<DVec3>], curves: &[Curve], radius: f64, step: f64) -> Self {
         let mut links = Vec::new();
         let mut strands = Vec::new();
-        for (i, (line, curve)) in lines.iter().zip(curves).enumerate() {
-            let first = links.len();
-            let length = cut(line, step, i as u32, &mut links);
-            strands.push((first..links.len(), length, curve.closed));
+        // Some at a time: no link is held twice for all of them at once.
+        for (first, lines) in (0..).step_by(AT_A_TIME).zip(lines.chunks(AT_A_TIME)) {
+            let one = |(i, line): (usize, &Vec<DVec3>)| {
+                let mut links = Vec::new();
+                (cut(line, step, (first + i) as u32, &mut links), links)
+            };
+            let made: Vec<(f64, Vec<Link>)> = lines.par_iter().enumerate().map(one).collect();
+            for ((length, of_line), curve) in made.into_iter().zip(&curves[first..]) {
+                let range = links.len()..links.len() + of_line.len();
+                strands.push((range, length, curve.closed));
+                links.extend(of_line);
+            }
         }
         // Middles of links within `radius` of each other are up to half a link further apart on each side.
         let grid = Grid::new(links.iter().map(|l| l.middle), 2.0 * (radius + step));
@@ -170,18 +181,21 @@ impl Strands {
     /// Distances at local minima within the search radius, in evenly spread blocks of links.
     fn contacts(&self) -> Contacts {
         let every = self.links.len().div_ceil(MAX_QUERIES).max(1);
-        let mut distances = Vec::new();
-        let mut length = 0.0;
         // Blocks overlap by two, so that the minima at their borders are judged once.
         let blocks = self.strands.iter().flat_map(|(links, ..)| {
             links.clone().step_by(BLOCK - 2).map(|start| start..links.end.min(start + BLOCK))
         });
-        for block in blocks.step_by(every) {
-            length += self.links[block.clone()].iter().map(|l| 2.0 * l.half_length).sum::<f64>();
+        let blocks: Vec<Range<usize>> = blocks.step_by(every).collect();
+        let of_block = |block: Range<usize>| {
+            let length = self.links[block.clone()].iter().map(|l| 2.0 * l.half_length).sum::<f64>();
             let nearest: Vec<f64> = block.map(|i| self.nearest(i)).collect();
             let minima = nearest.windows(3).filter(|d| d[1] <= d[0] && d[1] <= d[2]).map(|d| d[1]);
-            distances.extend(minima.filter(|d| (CROSSING * self.radius..self.radius).contains(d)));
-        }
+            let seen = minima.filter(|d| (CROSSING * self.radius..self.radius).contains(d));
+            (length, seen.collect::<Vec<f64>>())
+        };
+        let seen: Vec<(f64, Vec<f64>)> = blocks.into_par_iter().map(of_block).collect();
+        let length: f64 = seen.iter().map(|(length, _)| length).sum();
+        let distances: Vec<f64> = seen.into_iter().flat_map(|(_, distances)| distances).collect();
         let per_length = distances.len() as f64 / length.max(f64::MIN_POSITIVE);
         Contacts { distances, per_length }
     }

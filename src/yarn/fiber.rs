@@ -4,7 +4,7 @@ use super::params::YarnParams;
 use super::period::FiberShape;
 use super::table::Fiber;
 use crate::math::curve::bezier_point;
-use crate::math::frame::{direction_or, normal_perpendicular_to};
+use crate::math::frame::{direction_of, direction_or, normal_perpendicular_to};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
@@ -102,7 +102,10 @@ pub fn twist_at(turns: &PieceTurns, t: f64) -> Twist {
 /// Unit tangent of the Bezier piece `b` where its derivative is `derivative`. A cusp or a zero-length
 /// piece has none: the chord stands in, then the legs.
 pub fn piece_tangent(b: &[DVec3; 4], derivative: DVec3) -> DVec3 {
-    direction_or(derivative, direction_or(b[3] - b[0], direction_or(b[2] - b[1], DVec3::X)))
+    direction_of(derivative)
+        .or_else(|| direction_of(b[3] - b[0]))
+        .or_else(|| direction_of(b[2] - b[1]))
+        .unwrap_or(DVec3::X)
 }
 
 /// The unit `normal` turned by the smallest rotation that takes the unit tangent `from` to `to`, times

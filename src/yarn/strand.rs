@@ -91,11 +91,18 @@ impl Strands {
     pub fn knot_tangents_at(&self, points: &[DVec3]) -> Vec<DVec3> {
         let mut tangents = vec![DVec3::X; points.len()];
         let [start, end] = knot_offsets(self.basis);
-        for piece in &self.pieces {
+        let of_piece = |piece: &Piece| {
             let window = std::array::from_fn(|k| points[piece.first_point + k]);
             let b = bezier_from_basis(&window, self.basis);
-            tangents[piece.first_point + end] = piece_tangent(&b, b[3] - b[2]);
-            tangents[piece.first_point + start] = piece_tangent(&b, b[1] - b[0]);
+            [piece_tangent(&b, b[1] - b[0]), piece_tangent(&b, b[3] - b[2])]
+        };
+        for pieces in self.pieces.chunks(PIECES_AT_A_TIME) {
+            let made: Vec<[DVec3; 2]> = pieces.par_iter().map(of_piece).collect();
+            // The piece behind a knot has the last word.
+            for (piece, [at_start, at_end]) in pieces.iter().zip(made) {
+                tangents[piece.first_point + end] = at_end;
+                tangents[piece.first_point + start] = at_start;
+            }
         }
         tangents
     }
@@ -156,6 +163,11 @@ pub fn strands(curves: &[Curve], basis: Basis, yarn: &YarnParams, seed: u64) -> 
         period_counts: vec![0; curves.len()],
         curves: vec![CurveTurns::default(); curves.len()],
     };
+    // At most three points more than given to each, and no more pieces than that.
+    let most = all.control_point_count + 3 * curves.len();
+    all.points.reserve(most);
+    all.normals.reserve(most);
+    all.pieces.reserve(if basis == Basis::Bezier { most / 3 } else { most });
     // Some curves at a time: what they are made of is then not held for all of them at once.
     for (start, some) in (0..).step_by(AT_A_TIME).zip(curves.chunks(AT_A_TIME)) {
         let made: Vec<_> = some
@@ -171,6 +183,8 @@ pub fn strands(curves: &[Curve], basis: Basis, yarn: &YarnParams, seed: u64) -> 
 
 /// Curves that are made ready together.
 const AT_A_TIME: usize = 64;
+/// Pieces whose tangents are found together.
+const PIECES_AT_A_TIME: usize = 1 << 16;
 
 /// One curve made ready; its pieces count points from its own first.
 struct Prepared {
