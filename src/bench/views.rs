@@ -1,16 +1,17 @@
 //! Where a scene is looked at from: close up, at its worst, whole, and from near to far (Wu & Yuksel 2019, Table 1,
 //! Figs. 15, 17 and 18).
 
+use super::settings::DEFAULT_SAMPLES;
 use crate::error::Error;
+use crate::frame::sampling::Sampling;
 use crate::scene::camera::Camera;
+use crate::scene::file::QualityTable;
 use crate::scene::{Fabric, Scene};
 use glam::DVec3;
 use std::path::Path;
 
 /// Width in pixels of a fiber at the target of a close view: every fiber in the picture is drawn.
 const CLOSE_FIBER_PX: f64 = 1.2;
-/// The same of the worst case: as far away as all fibers are still drawn, at 4 samples by default settings.
-const WORST_FIBER_PX: f64 = 0.75;
 /// Each picture of the sweep is from twice as far as the one before.
 const SWEEP_PICTURES: i32 = 5;
 const FOV_Y_DEG: f64 = 35.0;
@@ -24,7 +25,7 @@ const FRONT_RADII: f64 = 5.0;
 pub enum ViewKind {
     /// A fiber is 1.2 pixels wide.
     Close,
-    /// A fiber is 0.75 pixels wide: as far away as nothing is simplified yet.
+    /// A fiber is 1 pixel wide: as far away as nothing is simplified yet.
     Worst,
     /// All of it.
     Full,
@@ -65,15 +66,22 @@ pub fn views(path: &Path, sets: &[String], size: [u32; 2], kinds: &[ViewKind]) -
         ];
         View { name, sets: [&angles[..], &place].concat() }
     };
+    let worst_px = worst_fiber_px()?;
     let of = |kind: &ViewKind| match kind {
         ViewKind::Close => vec![near("close".into(), CLOSE_FIBER_PX)],
-        ViewKind::Worst => vec![near("worst".into(), WORST_FIBER_PX)],
+        ViewKind::Worst => vec![near("worst".into(), worst_px)],
         ViewKind::Full => vec![View { name: "full".into(), sets: fit.clone() }],
         ViewKind::Distance => (0..SWEEP_PICTURES)
             .map(|i| near(format!("distance {}x", 1 << i), CLOSE_FIBER_PX * 0.5_f64.powi(i)))
             .collect(),
     };
     Ok(kinds.iter().flat_map(of).collect())
+}
+
+/// As far away as all fibers are still drawn, at the default number of samples by default settings.
+fn worst_fiber_px() -> Result<f64, Error> {
+    let sampling = Sampling::new(DEFAULT_SAMPLES).map_err(Error::Failed)?;
+    Ok(QualityTable::default().lod_threshold_samples * sampling.spacing_px())
 }
 
 /// Width in pixels of a fiber of the scene's first fabric at what the camera looks at.
@@ -125,7 +133,7 @@ mod tests {
         assert_eq!(views.len(), 8);
         let scenes: Vec<Scene> =
             views.iter().map(|view| Scene::load(&model.path, &view.sets).unwrap()).collect();
-        for (index, expected) in [(0, 1.2), (1, 0.75), (3, 1.2), (4, 0.6), (7, 0.075)] {
+        for (index, expected) in [(0, 1.2), (1, 1.0), (3, 1.2), (4, 0.6), (7, 0.075)] {
             let found = fiber_px(&scenes[index], SIZE).unwrap();
             assert!((found - expected).abs() < 1e-9, "{}: {found}", views[index].name);
         }

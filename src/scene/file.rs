@@ -201,8 +201,8 @@ impl Default for QualityTable {
         Self {
             culling: true,
             level_of_detail: true,
-            lod_threshold_samples: 1.5,
-            thin_fiber_samples: 0.4,
+            lod_threshold_samples: 2.0,
+            thin_fiber_samples: 0.5,
             vertex_shaded_samples: 12.0,
             core_visible_share: 0.02,
             core_texture_rows: 64,

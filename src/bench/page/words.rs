@@ -43,36 +43,73 @@ pub fn lead(report: &Report) -> Vec<String> {
     vec![about, standing(report)]
 }
 
-/// Whether the default is on the fronts, and what beats it.
+/// Share of an error up to which another is the same: a reference with a quarter of the samples moves one by 1.5%.
+const SAME_ERROR: f64 = 0.01;
+/// Share of a time from which on another is worth a word where errors are the same.
+const MUCH_FASTER: f64 = 0.1;
+
+/// Whether the default is on the fronts, as far as errors can be told apart, and what beats it.
 pub fn standing(report: &Report) -> String {
     let views: Vec<&str> = report.views.iter().map(|view| view.name.as_str()).collect();
-    let beaten: Vec<String> = views.iter().filter_map(|view| beaten_by(report, view)).collect();
-    let on = views.iter().filter(|view| is_default_on(report, view)).count();
-    if beaten.is_empty() && on == views.len() {
-        return "The default lies on the front of every view: no other settings were both faster and more accurate."
-            .into();
+    let of_views = |say: fn(&Report, &str) -> Option<String>| -> Vec<String> {
+        views.iter().filter_map(|view| say(report, view)).collect()
+    };
+    let (beaten, equalled) = (of_views(beaten_by), of_views(equalled_by));
+    let measured = views.iter().filter(|view| report.cell(view, DEFAULT).is_some()).count();
+    let told_apart = format!("where errors differ by more than {:.0}%", 100.0 * SAME_ERROR);
+    let mut said = if beaten.is_empty() && measured == views.len() {
+        format!(
+            "The default lies on the front of every view: no other settings were both faster and more accurate, \
+             {told_apart}."
+        )
+    } else {
+        let on = measured - beaten.len();
+        let beaten = beaten.join("; ");
+        format!("The default lies on the front of {on} of {} views, {told_apart}; {beaten}.", views.len())
+    };
+    if !equalled.is_empty() {
+        said += &format!(" {}.", capital(&equalled.join("; ")));
     }
-    let beaten = beaten.join("; ");
-    format!("The default lies on the front of {on} of {} views; {beaten}.", views.len())
+    said
 }
 
-fn is_default_on(report: &Report, view: &str) -> bool {
-    report.front(view).iter().any(|cell| cell.setting.name == DEFAULT)
-}
-
-/// The front's picture that is the most accurate of those that beat the default.
+/// The most accurate picture that is faster than the default and better by more than can be overlooked.
 fn beaten_by(report: &Report, view: &str) -> Option<String> {
     let default = report.cell(view, DEFAULT)?;
-    let ms = |cell: &Cell| cell.time(&report.head).median;
-    let front = report.front(view);
-    let better = front.iter().filter(|cell| cell.flip <= default.flip && ms(cell) <= ms(default));
-    let best = better.filter(|cell| cell.setting.name != DEFAULT).min_by(|a, b| a.flip.total_cmp(&b.flip))?;
-    let faster = 100.0 * (1.0 - ms(best) / ms(default));
-    let less = default.flip - best.flip;
+    let better = faster(report, view, default).filter(|cell| cell.flip < (1.0 - SAME_ERROR) * default.flip);
+    let best = better.min_by(|a, b| a.flip.total_cmp(&b.flip))?;
     Some(format!(
-        "in the {view} view \"{}\" is {faster:.0}% faster and errs by {less:.4} less",
-        best.setting.name
+        "in the {view} view \"{}\" is {:.0}% faster and errs by {:.4} less",
+        best.setting.name,
+        100.0 * spared(report, default, best),
+        default.flip - best.flip
     ))
+}
+
+/// The fastest picture that is much faster than the default and as good.
+fn equalled_by(report: &Report, view: &str) -> Option<String> {
+    let default = report.cell(view, DEFAULT)?;
+    let same = |cell: &&Cell| (cell.flip - default.flip).abs() <= SAME_ERROR * default.flip;
+    let equal = faster(report, view, default).filter(same);
+    let best = equal.max_by(|a, b| spared(report, default, a).total_cmp(&spared(report, default, b)))?;
+    let spared = spared(report, default, best);
+    (spared >= MUCH_FASTER).then(|| {
+        let name = &best.setting.name;
+        format!(
+            "in the {view} view \"{name}\" errs as much as the default and is {:.0}% faster",
+            100.0 * spared
+        )
+    })
+}
+
+fn faster<'a>(report: &'a Report, view: &'a str, default: &'a Cell) -> impl Iterator<Item = &'a Cell> {
+    let others = report.cells_of(view).filter(|cell| cell.setting.name != DEFAULT);
+    others.filter(move |cell| spared(report, default, cell) >= 0.0)
+}
+
+/// Share of the default's time that other settings spare.
+fn spared(report: &Report, default: &Cell, cell: &Cell) -> f64 {
+    1.0 - cell.time(&report.head).median / default.time(&report.head).median
 }
 
 /// What the default, the fastest and the most accurate do in a view.
@@ -167,8 +204,15 @@ mod tests {
             assert!(said.contains(part), "{part}: {said}");
         }
         assert!(said.contains("\"better\" is 20% faster and errs by 0.0500 less"), "{said}");
+        let better = report.cells.iter().position(|cell| cell.setting.name == "better").unwrap();
+        let default = report.cell("close", DEFAULT).unwrap().flip;
+        report.cells[better].flip = 0.995 * default;
+        let said = standing(&report);
+        assert!(said.contains("lies on the front of every view"), "{said}");
+        assert!(said.contains("\"better\" errs as much as the default and is 20% faster"), "{said}");
         report.cells.remove(1);
-        assert!(standing(&report).contains("lies on the front of every view"));
+        let said = standing(&report);
+        assert!(said.contains("lies on the front of every view") && !said.contains("as much"), "{said}");
         report.cells.remove(0);
         assert!(view_line(&report, "close").contains("default was not measured"));
     }
