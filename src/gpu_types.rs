@@ -171,8 +171,17 @@ pub struct Yarn {
     pub ply_cos: f32,
     /// Its sine.
     pub ply_sin: f32,
+    /// More than the ellipse's short half-axis, in mm, by which a unit of R moves a fiber outside of the ply's surface:
+    /// 0 but in plies flatter than any that was measured.
+    pub beyond_short: f32,
+    /// The same of the long one.
+    pub beyond_long: f32,
     /// Nothing.
-    pub padding: u32,
+    pub padding_0: u32,
+    /// Nothing.
+    pub padding_1: u32,
+    /// Nothing.
+    pub padding_2: u32,
     /// Visibility as a cubic of (distance from the centre / outer radius).
     pub occlusion: [f32; 4],
     /// How much more of it comes from outside than from the other side, likewise.
