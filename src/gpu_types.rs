@@ -292,6 +292,10 @@ pub struct Statistics {
     pub fiber_segments_high: u32,
     /// Pieces of yarn drawn with fewer pieces of fiber than the tolerance asks for.
     pub patches_coarse: u32,
+    /// Pieces of yarn drawn that lie so nearly along a light that their own tube may shadow them.
+    pub patches_along_light: u32,
+    /// Pieces of yarn drawn whose soft shadows may be wider than they are looked up.
+    pub patches_softer_than_searched: u32,
 }
 
 impl Statistics {

@@ -150,6 +150,8 @@ struct Statistics {
     uint fiber_segments_low;
     uint fiber_segments_high;
     uint patches_coarse;    // drawn with fewer pieces of fiber than the tolerance asks for
+    uint patches_along_light;          // drawn and lying so along a light that its own tube may shadow it
+    uint patches_softer_than_searched; // drawn and farther from what may hide it than soft shadows are looked up
 };
 
 #endif

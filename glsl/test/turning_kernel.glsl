@@ -11,7 +11,7 @@ Turning take_turning() {
     turning.places.y = take_float();
     turning.widths.x = take_float();
     turning.widths.y = take_float();
-    turning.share = take_float();
+    turning.swift = take_float();
     return turning;
 }
 

@@ -11,15 +11,21 @@
 struct Turning {
     vec2 places;  // may lie outside of the piece
     vec2 widths;
-    float share;  // of the cuts that goes to turns: 0 where the piece turns evenly enough
+    float swift;  // 0 where the piece turns evenly enough to be cut evenly, 1 where cuts must follow its turns
 };
 
-// Turns per piece, in radians, from which on cuts follow turns, and at which the most of them do: half a turn in an
-// eighth and in a sixteenth of the piece. Cloth as it is knitted stays below.
+// How a fiber is cut over a piece of yarn.
+struct Cut {
+    uint pieces;
+    float share;  // of the cuts that goes to turns
+};
+
+// Radians per piece from which on cuts follow turns, and from which on wholly: a quarter turn in an eighth and in a
+// sixteenth of the piece. Cloth as it is knitted stays below.
 const float SWIFT_TURN = 4.0 * PI;
 const float SWIFTEST_TURN = 8.0 * PI;
-// Most of the cuts that turns get: the rest follows twist.
-const float MOST_TURNED = 0.5;
+// Most of the cuts that turns get.
+const float MOST_TURNED = 0.75;
 // Width of a turn that is none, and the least one: at a cusp it would be 0.
 const float WIDEST_TURN = 1e3;
 const float NARROWEST_TURN = 1e-4;
@@ -57,7 +63,7 @@ Turning turning_of(vec3 b[4]) {
     turning.widths = vec2(first.y, second.y);
     vec2 beyond = max(max(-turning.places, turning.places - 1.0), 0.0);
     vec2 rates = turning.widths / (turning.widths * turning.widths + beyond * beyond);
-    turning.share = MOST_TURNED * smoothstep(SWIFT_TURN, SWIFTEST_TURN, max(rates.x, rates.y));
+    turning.swift = smoothstep(SWIFT_TURN, SWIFTEST_TURN, max(rates.x, rates.y));
     return turning;
 }
 
@@ -67,21 +73,21 @@ float turned_angle(Turning turning, float t) {
     return angle_of(from.x, turning.widths.x) + angle_of(from.y, turning.widths.y);
 }
 
-// Share of the cuts of an uneven piece that lies before t.
-float share_before(Turning turning, float t) {
+// Share of the cuts that lies before t, where `turned_share` of them goes to turns.
+float share_before(Turning turning, float turned_share, float t) {
     float start = turned_angle(turning, 0.0);
     float whole = turned_angle(turning, 1.0) - start;
     float turned = (turned_angle(turning, t) - start) / max(whole, 1e-6);
-    return mix(t, turned, turning.share);
+    return mix(t, turned, turned_share);
 }
 
 // Where the cut lies before which a share of all of them does.
-float break_at(Turning turning, float share) {
+float break_at(Turning turning, float turned_share, float share) {
     float low = 0.0;
     float high = 1.0;
     for (int k = 0; k < BREAK_STEPS; ++k) {
         float middle = 0.5 * (low + high);
-        bool beyond = share_before(turning, middle) > share;
+        bool beyond = share_before(turning, turned_share, middle) > share;
         low = beyond ? low : middle;
         high = beyond ? middle : high;
     }
@@ -97,17 +103,18 @@ float tabled_break(vec4 breaks[TABLED_BREAKS / 4u], float share) {
     return mix(low, breaks[next / 4u][next % 4u], place - float(next));
 }
 
-// Pieces that a fiber is cut into over the Bezier piece `b` where `even` would do if it turned evenly: as many in
-// its calm part, and in its turns enough for what swings around them at `reach` to depart by no more than `tolerance`.
-uint uneven_pieces(Turning turning, vec3 b[4], uint even, float reach, float tolerance, uint largest) {
-    if (turning.share <= 0.0) {
-        return even;
+// How a fiber is cut over the Bezier piece `b` where `even` pieces would do if it turned evenly, and `calm` if it did not
+// turn: enough in its turns for what swings around them at `reach` to depart by no more than `tolerance`, and as many as
+// they would be in between.
+Cut uneven_cut(Turning turning, vec3 b[4], uint even, uint calm, float reach, float tolerance, uint largest) {
+    if (turning.swift <= 0.0) {
+        return Cut(even, 0.0);
     }
     float bend = turning_angle(b[1] - b[0], b[2] - b[1]) + turning_angle(b[2] - b[1], b[3] - b[2]);
-    float swing = bend * sqrt(reach / (8.0 * max(tolerance, 1e-12))) / turning.share;
-    float calm = float(even) / (1.0 - turning.share);
-    float pieces = mix(float(even), max(swing, calm), turning.share / MOST_TURNED);
-    return uint(clamp(ceil(pieces), 1.0, float(largest)));
+    float turned = max(bend * sqrt(reach / (8.0 * max(tolerance, 1e-12))), 1e-3);
+    float share = min(turned / (turned + float(calm)), MOST_TURNED);
+    float pieces = mix(float(even), max(turned / share, float(calm) / (1.0 - share)), turning.swift);
+    return Cut(uint(clamp(ceil(pieces), 1.0, float(largest))), turning.swift * share);
 }
 
 #endif

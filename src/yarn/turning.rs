@@ -14,16 +14,25 @@ pub struct Turning {
     pub places: DVec2,
     /// Over how much of t.
     pub widths: DVec2,
-    /// Share of the cuts that goes to turns: 0 where the piece turns evenly enough.
+    /// 0 where the piece turns evenly enough to be cut evenly, 1 where cuts must follow its turns.
+    pub swift: f64,
+}
+
+/// How a fiber is cut over a piece of yarn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cut {
+    /// Straight pieces.
+    pub pieces: u32,
+    /// Share of the cuts that goes to turns.
     pub share: f64,
 }
 
-/// Turns per piece, in radians, from which on cuts follow turns, and at which the most of them do: half a turn in an
-/// eighth and in a sixteenth of the piece. Cloth as it is knitted stays below.
+/// Radians per piece from which on cuts follow turns, and from which on wholly: a quarter turn in an eighth and in a
+/// sixteenth of the piece. Cloth as it is knitted stays below.
 const SWIFT_TURN: f64 = 4.0 * PI;
 const SWIFTEST_TURN: f64 = 8.0 * PI;
-/// Most of the cuts that turns get: the rest follows twist.
-const MOST_TURNED: f64 = 0.5;
+/// Most of the cuts that turns get.
+const MOST_TURNED: f64 = 0.75;
 /// Width of a turn that is none, and the least one: at a cusp it would be 0.
 const WIDEST_TURN: f64 = 1e3;
 const NARROWEST_TURN: f64 = 1e-4;
@@ -57,7 +66,7 @@ pub fn turning_of(b: &[DVec3; 4]) -> Turning {
     let beyond = (-places).max(places - 1.0).max(DVec2::ZERO);
     let rates = widths / (widths * widths + beyond * beyond);
     let swift = ((rates.max_element() - SWIFT_TURN) / (SWIFTEST_TURN - SWIFT_TURN)).clamp(0.0, 1.0);
-    Turning { places, widths, share: MOST_TURNED * swift * swift * (3.0 - 2.0 * swift) }
+    Turning { places, widths, swift: swift * swift * (3.0 - 2.0 * swift) }
 }
 
 /// Angle in radians that the piece has turned by at t, but for a constant.
@@ -66,20 +75,20 @@ pub fn turned_angle(turning: &Turning, t: f64) -> f64 {
     angle_of(from.x, turning.widths.x) + angle_of(from.y, turning.widths.y)
 }
 
-/// Share of the cuts of an uneven piece that lies before t.
-pub fn share_before(turning: &Turning, t: f64) -> f64 {
+/// Share of the cuts that lies before t, where `turned_share` of them goes to turns.
+pub fn share_before(turning: &Turning, turned_share: f64, t: f64) -> f64 {
     let start = turned_angle(turning, 0.0);
     let whole = turned_angle(turning, 1.0) - start;
     let turned = (turned_angle(turning, t) - start) / whole.max(1e-6);
-    t + (turned - t) * turning.share
+    t + (turned - t) * turned_share
 }
 
 /// Where the cut lies before which a share of all of them does.
-pub fn break_at(turning: &Turning, share: f64) -> f64 {
+pub fn break_at(turning: &Turning, turned_share: f64, share: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..BREAK_STEPS {
         let middle = 0.5 * (low + high);
-        if share_before(turning, middle) > share { high = middle } else { low = middle }
+        if share_before(turning, turned_share, middle) > share { high = middle } else { low = middle }
     }
     0.5 * (low + high)
 }
@@ -92,26 +101,35 @@ pub fn tabled_break(breaks: &[f64; TABLED_BREAKS], share: f64) -> f64 {
     low + (breaks[next] - low) * (place - next as f64)
 }
 
-/// Pieces that a fiber is cut into over the Bezier piece `b` where `even` would do if it turned evenly: as many in
-/// its calm part, and in its turns enough for what swings around them at `reach_mm` to depart by no more than
-/// `tolerance_mm`; at most `largest`.
-pub fn uneven_pieces(
-    turning: &Turning,
-    b: &[DVec3; 4],
-    even: u32,
-    reach_mm: f64,
-    tolerance_mm: f64,
-    largest: u32,
-) -> u32 {
-    if turning.share <= 0.0 {
-        return even;
+/// What decides how an uneven piece is cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnevenCutting {
+    /// Pieces that would do if it turned evenly.
+    pub even: u32,
+    /// And if it did not turn.
+    pub calm: u32,
+    /// How far out the farthest fiber swings around its turns.
+    pub reach_mm: f64,
+    /// Largest departure of a chord from the curve.
+    pub tolerance_mm: f64,
+    /// Most pieces.
+    pub largest: u32,
+}
+
+/// How a fiber is cut over the Bezier piece `b`: enough in its turns for what swings around them to depart by no more
+/// than the tolerance, and as many as they would be in between.
+pub fn uneven_cut(turning: &Turning, b: &[DVec3; 4], cutting: &UnevenCutting) -> Cut {
+    if turning.swift <= 0.0 {
+        return Cut { pieces: cutting.even, share: 0.0 };
     }
     let legs = [b[1] - b[0], b[2] - b[1], b[3] - b[2]];
     let bend = turning_angle(legs[0], legs[1]) + turning_angle(legs[1], legs[2]);
-    let swing = bend * (reach_mm / (8.0 * tolerance_mm.max(1e-12))).sqrt() / turning.share;
-    let (even, calm) = (f64::from(even), f64::from(even) / (1.0 - turning.share));
-    let pieces = even + (swing.max(calm) - even) * turning.share / MOST_TURNED;
-    pieces.ceil().clamp(1.0, f64::from(largest)) as u32
+    let turned = (bend * (cutting.reach_mm / (8.0 * cutting.tolerance_mm.max(1e-12))).sqrt()).max(1e-3);
+    let (even, calm) = (f64::from(cutting.even), f64::from(cutting.calm));
+    let share = (turned / (turned + calm)).min(MOST_TURNED);
+    let pieces = even + ((turned / share).max(calm / (1.0 - share)) - even) * turning.swift;
+    let pieces = pieces.ceil().clamp(1.0, f64::from(cutting.largest)) as u32;
+    Cut { pieces, share: turning.swift * share }
 }
 
 #[cfg(test)]

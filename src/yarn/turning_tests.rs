@@ -12,10 +12,10 @@ fn cusp() -> [DVec3; 4] {
     [(-6.0, -2.0), (6.0, 5.0), (-6.0, 5.0), (6.0, -2.0)].map(|(x, y)| DVec3::new(x, y, 0.0))
 }
 
-fn table(turning: &Turning) -> [f64; TABLED_BREAKS] {
+fn table(turning: &Turning, turned_share: f64) -> [f64; TABLED_BREAKS] {
     std::array::from_fn(|k| match k + 1 {
         TABLED_BREAKS => 1.0,
-        next => break_at(turning, next as f64 / TABLED_BREAKS as f64),
+        next => break_at(turning, turned_share, next as f64 / TABLED_BREAKS as f64),
     })
 }
 
@@ -44,22 +44,22 @@ fn a_plane_curve_turns_as_its_two_spots_say() {
 #[test]
 fn cuts_of_a_hairpin_follow_its_turn() {
     let turning = turning_of(&hairpin());
-    assert_eq!(turning.share, MOST_TURNED);
-    let breaks = table(&turning);
+    assert_eq!(turning.swift, 1.0);
+    let breaks = table(&turning, 0.5);
     let (evenly, tabled) =
         (most_turned(&hairpin(), 30, |t| t), most_turned(&hairpin(), 30, |t| tabled_break(&breaks, t)));
     // Half of the cuts go to two quarters of a turn: 12 degrees each.
     assert!(evenly > 1.0 && tabled < 0.3, "{evenly} and {tabled} rad");
     for k in 0..=TABLED_BREAKS {
         let share = k as f64 / TABLED_BREAKS as f64;
-        assert!((share_before(&turning, tabled_break(&breaks, share)) - share).abs() < 1e-5);
+        assert!((share_before(&turning, 0.5, tabled_break(&breaks, share)) - share).abs() < 1e-5);
     }
 }
 
 #[test]
 fn no_step_is_longer_than_the_calm_part_allows() {
     for b in [hairpin(), cusp()] {
-        let breaks = table(&turning_of(&b));
+        let breaks = table(&turning_of(&b), MOST_TURNED);
         let longest = (0..64).map(|k| {
             let cut = |k: u32| tabled_break(&breaks, f64::from(k) / 64.0);
             cut(k + 1) - cut(k)
@@ -72,8 +72,11 @@ fn no_step_is_longer_than_the_calm_part_allows() {
 fn a_cusp_is_cut_where_it_lies() {
     let turning = turning_of(&cusp());
     assert!((turning.places - 0.5).abs().max_element() < 1e-3, "{turning:?}");
-    assert_eq!(turning.share, MOST_TURNED);
-    assert!((break_at(&turning, 0.4) - 0.5).abs() < 1e-3 && (break_at(&turning, 0.6) - 0.5).abs() < 1e-3);
+    assert_eq!(turning.swift, 1.0);
+    assert!(
+        (break_at(&turning, 0.5, 0.4) - 0.5).abs() < 1e-3
+            && (break_at(&turning, 0.5, 0.6) - 0.5).abs() < 1e-3
+    );
 }
 
 #[test]
@@ -81,18 +84,25 @@ fn straight_and_standing_pieces_do_not_turn() {
     let at = |x: [f64; 4]| x.map(|x| DVec3::X * x);
     for b in [at([0.0; 4]), at([7.0; 4]), at([0.0, 1.0, 2.0, 3.0]), at([0.0, 1.0, 1.5, 1.6])] {
         let turning = turning_of(&b);
-        assert!(turning.share == 0.0 && turning.widths.is_finite(), "{b:?}: {turning:?}");
+        assert!(turning.swift == 0.0 && turning.widths.is_finite(), "{b:?}: {turning:?}");
     }
 }
 
 #[test]
 fn what_swings_around_a_hairpin_departs_by_no_more_than_allowed() {
-    let (reach_mm, tolerance_mm) = (1.5, 0.01);
     let turning = turning_of(&hairpin());
-    let breaks = table(&turning);
-    let count = uneven_pieces(&turning, &hairpin(), 12, reach_mm, tolerance_mm, 64);
-    let swung = most_turned(&hairpin(), count, |t| tabled_break(&breaks, t));
-    // A table's cuts lie evenly in between: a little apart from where they should.
-    let departure = reach_mm * swung * swung / 8.0;
-    assert!(departure < 2.0 * tolerance_mm, "{count} pieces depart by {departure} mm");
+    for (calm, tolerance_mm) in [(1, 0.01), (12, 0.01), (12, 0.003), (40, 0.01)] {
+        let cutting = UnevenCutting { even: calm + 3, calm, reach_mm: 1.5, tolerance_mm, largest: 1000 };
+        let Cut { pieces, share } = uneven_cut(&turning, &hairpin(), &cutting);
+        let breaks = table(&turning, share);
+        let swung = most_turned(&hairpin(), pieces, |t| tabled_break(&breaks, t));
+        // A table's cuts lie evenly in between: a little apart from where they should.
+        let departure = cutting.reach_mm * swung * swung / 8.0;
+        assert!(departure < 2.0 * tolerance_mm, "{pieces} pieces, {share}: {departure} mm");
+        let longest = (0..pieces).map(|k| {
+            let cut = |k: u32| tabled_break(&breaks, f64::from(k) / f64::from(pieces));
+            cut(k + 1) - cut(k)
+        });
+        assert!(longest.fold(0.0, f64::max) * f64::from(calm) < 1.0 + 1e-5, "{pieces} for {calm} calm ones");
+    }
 }

@@ -3,29 +3,21 @@
 use crate::harness::{Args, Case, Row, number};
 use crate::inputs::{Random, RowBuilder, random_rows, row, special_pieces};
 use glam::{DVec2, DVec3};
-use worsted::yarn::turning::{self, TABLED_BREAKS, Turning};
+use worsted::yarn::turning::{self, TABLED_BREAKS, Turning, UnevenCutting};
 
 pub fn cases() -> Vec<Case> {
-    vec![
-        turn_spot(),
-        turning_of(),
-        turned_angle(),
-        share_before(),
-        break_at(),
-        tabled_break(),
-        uneven_pieces(),
-    ]
+    vec![turn_spot(), turning_of(), turned_angle(), share_before(), break_at(), tabled_break(), uneven_cut()]
 }
 
 fn with_turning(row: RowBuilder, turning: &Turning) -> RowBuilder {
     let (places, widths) = (turning.places, turning.widths);
-    [places.x, places.y, widths.x, widths.y, turning.share].iter().fold(row, |row, v| row.real(*v))
+    [places.x, places.y, widths.x, widths.y, turning.swift].iter().fold(row, |row, v| row.real(*v))
 }
 
 fn read(args: &mut Args<'_>) -> Turning {
     let mut pair = || DVec2::new(args.real(), args.real());
     let (places, widths) = (pair(), pair());
-    Turning { places, widths, share: args.real() }
+    Turning { places, widths, swift: args.real() }
 }
 
 /// Spots in the piece and beside it, from the narrowest to none.
@@ -35,7 +27,7 @@ fn some_turning(random: &mut Random) -> Turning {
     Turning {
         places: DVec2::new(first.0, second.0),
         widths: DVec2::new(first.1, second.1),
-        share: random.between(0.0, 0.5),
+        swift: random.between(0.0, 1.0),
     }
 }
 
@@ -77,9 +69,9 @@ fn turning_of() -> Case {
     Case {
         function: "turning_of",
         rows,
-        twin: |args| vec![number("share", turning::turning_of(&args.piece()).share, 1e-1)],
+        twin: |args| vec![number("swift", turning::turning_of(&args.piece()).swift, 1e-1)],
         invariant: Some(|_, found| {
-            (0.0..=0.5).contains(&found[0]).then_some(()).ok_or_else(|| "no share of cuts".into())
+            (0.0..=1.0).contains(&found[0]).then_some(()).ok_or_else(|| "no share".into())
         }),
     }
 }
@@ -108,7 +100,8 @@ fn uneven_turning(random: &mut Random) -> Turning {
 
 fn uneven_rows(function: &str) -> Vec<Row> {
     random_rows(function, |random: &mut Random| {
-        with_turning(row(), &uneven_turning(random)).real(random.between(0.0, 1.0)).end()
+        let turned = with_turning(row(), &uneven_turning(random)).real(random.between(0.0, 0.75));
+        turned.real(random.between(0.0, 1.0)).end()
     })
 }
 
@@ -118,7 +111,7 @@ fn share_before() -> Case {
         rows: uneven_rows("share_before"),
         twin: |args| {
             let turning = read(args);
-            vec![number("share", turning::share_before(&turning, args.real()), 1.0)]
+            vec![number("share", turning::share_before(&turning, args.real(), args.real()), 1.0)]
         },
         invariant: Some(|_, found| {
             (-1e-5..=1.00001).contains(&found[0]).then_some(()).ok_or_else(|| "no share".into())
@@ -132,7 +125,7 @@ fn break_at() -> Case {
         rows: uneven_rows("break_at"),
         twin: |args| {
             let turning = read(args);
-            vec![number("t", turning::break_at(&turning, args.real()), 1.0)]
+            vec![number("t", turning::break_at(&turning, args.real(), args.real()), 1.0)]
         },
         invariant: Some(|_, found| {
             (0.0..=1.0).contains(&found[0]).then_some(()).ok_or_else(|| "outside of the piece".into())
@@ -160,34 +153,46 @@ fn tabled_break() -> Case {
     }
 }
 
-fn uneven_pieces() -> Case {
+fn uneven_cut() -> Case {
     let make = |random: &mut Random| loop {
         let (b, mut turning) = (sharp_piece(random), some_turning(random));
         if random.below(4) == 0 {
-            turning.share = 0.0;
+            turning.swift = 0.0;
         }
-        let even = 1 + random.below(40);
         let size = b[0].distance(b[2]);
-        let (reach, tolerance) = (size * random.magnitude(0.01, 1.0), size * random.magnitude(1e-4, 0.1));
-        // A whole number of pieces rounds up or not as the last digit falls; both are right.
-        let count = |by: f64| turning::uneven_pieces(&turning, &b, even, reach * by, tolerance, 64);
-        let near = |by: f64| {
-            let other = Turning { share: turning.share * by, ..turning };
-            turning::uneven_pieces(&other, &b, even, reach, tolerance, 64)
+        let cutting = UnevenCutting {
+            even: 1 + random.below(40),
+            calm: 1 + random.below(40),
+            reach_mm: size * random.magnitude(0.01, 1.0),
+            tolerance_mm: size * random.magnitude(1e-4, 0.1),
+            largest: 64,
         };
-        if count(1.0 + 1e-4) == count(1.0 - 1e-4) && near(1.0 + 1e-5) == near(1.0 - 1e-5) {
-            let given = with_turning(row(), &turning).piece(&b).bits(even);
-            return given.real(reach).real(tolerance).bits(64).end();
+        // A whole number of pieces rounds up or not as the last digit falls; both are right.
+        let count = |reach: f64, swift: f64| {
+            let turning = Turning { swift: turning.swift * swift, ..turning };
+            let cutting = UnevenCutting { reach_mm: cutting.reach_mm * reach, ..cutting };
+            turning::uneven_cut(&turning, &b, &cutting).pieces
+        };
+        let counts = [(0.9999, 0.9999), (0.9999, 1.0001), (1.0001, 0.9999), (1.0001, 1.0001)];
+        if counts.iter().all(|(reach, swift)| count(*reach, *swift) == count(1.0, 1.0)) {
+            let given = with_turning(row(), &turning).piece(&b).bits(cutting.even).bits(cutting.calm);
+            return given.real(cutting.reach_mm).real(cutting.tolerance_mm).bits(64).end();
         }
     };
     Case {
-        function: "uneven_pieces",
-        rows: random_rows("uneven_pieces", make),
+        function: "uneven_cut",
+        rows: random_rows("uneven_cut", make),
         twin: |args| {
-            let (turning, b, even) = (read(args), args.piece(), args.bits());
-            let count =
-                turning::uneven_pieces(&turning, &b, even, args.real(), args.real(), args.bits());
-            vec![number("pieces", count.into(), 1.0)]
+            let (turning, b) = (read(args), args.piece());
+            let cutting = UnevenCutting {
+                even: args.bits(),
+                calm: args.bits(),
+                reach_mm: args.real(),
+                tolerance_mm: args.real(),
+                largest: args.bits(),
+            };
+            let cut = turning::uneven_cut(&turning, &b, &cutting);
+            vec![number("pieces", cut.pieces.into(), 1.0), number("share", cut.share, 1e-2)]
         },
         invariant: None,
     }

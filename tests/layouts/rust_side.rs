@@ -162,7 +162,9 @@ pub fn layouts() -> Vec<Layout> {
             patches_culled,
             fiber_segments_low,
             fiber_segments_high,
-            patches_coarse
+            patches_coarse,
+            patches_along_light,
+            patches_softer_than_searched
         }),
     ]
 }

@@ -4,6 +4,7 @@
 
 void run() {
     Turning turning = take_turning();
+    float turned_share = take_float();
     float share = take_float();
-    give(break_at(turning, share));
+    give(break_at(turning, turned_share, share));
 }

@@ -4,6 +4,7 @@
 
 void run() {
     Turning turning = take_turning();
+    float turned_share = take_float();
     float t = take_float();
-    give(share_before(turning, t));
+    give(share_before(turning, turned_share, t));
 }

@@ -5,5 +5,5 @@
 void run() {
     vec3 b[4];
     take_piece(b);
-    give(turning_of(b).share);
+    give(turning_of(b).swift);
 }

@@ -7,8 +7,11 @@ void run() {
     vec3 b[4];
     take_piece(b);
     uint even = take_uint();
+    uint calm = take_uint();
     float reach = take_float();
     float tolerance = take_float();
     uint largest = take_uint();
-    give(float(uneven_pieces(turning, b, even, reach, tolerance, largest)));
+    Cut cut = uneven_cut(turning, b, even, calm, reach, tolerance, largest);
+    give(float(cut.pieces));
+    give(cut.share);
 }
