@@ -171,8 +171,17 @@ pub struct Yarn {
     pub ply_cos: f32,
     /// Its sine.
     pub ply_sin: f32,
+    /// More than the ellipse's short half-axis, in mm, by which a unit of R moves a fiber outside of the ply's surface:
+    /// 0 but in plies flatter than any that was measured.
+    pub beyond_short: f32,
+    /// The same of the long one.
+    pub beyond_long: f32,
     /// Nothing.
-    pub padding: u32,
+    pub padding_0: u32,
+    /// Nothing.
+    pub padding_1: u32,
+    /// Nothing.
+    pub padding_2: u32,
     /// Visibility as a cubic of (distance from the centre / outer radius).
     pub occlusion: [f32; 4],
     /// How much more of it comes from outside than from the other side, likewise.
@@ -283,6 +292,10 @@ pub struct Statistics {
     pub fiber_segments_high: u32,
     /// Pieces of yarn drawn with fewer pieces of fiber than the tolerance asks for.
     pub patches_coarse: u32,
+    /// Pieces of yarn drawn that lie so nearly along a light that their own tube may shadow them.
+    pub patches_along_light: u32,
+    /// Pieces of yarn drawn whose soft shadows may be wider than they are looked up.
+    pub patches_softer_than_searched: u32,
 }
 
 impl Statistics {

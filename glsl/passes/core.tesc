@@ -5,6 +5,7 @@
 #include "../yarn/fetch.glsl"
 #include "../yarn/core.glsl"
 #include "level.glsl"
+#include "shadow_limits.glsl"
 
 layout(vertices = 1) out;
 
@@ -37,6 +38,9 @@ void main() {
         if (!REGULAR_FIBERS) {
             count_patch(culled);
             count_coarse(drawn && needed > yarn.max_subdivisions);
+            if (!culled) {
+                count_shadow_limits(segment.first_point);
+            }
         }
         count_segments(drawn ? yarn.ply_count * pieces : 0);
     }

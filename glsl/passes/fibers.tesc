@@ -3,7 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "bindings.glsl"
 #include "../yarn/fetch.glsl"
+#include "../yarn/turning.glsl"
 #include "level.glsl"
+#include "shadow_limits.glsl"
 
 // Each looks at an eighth of the group's slots: lanes that a device would otherwise leave idle.
 const uint LANES = 8u;
@@ -23,6 +25,8 @@ layout(location = 8) patch out uvec4 patch_curve;       // first point, curve, m
 layout(location = 9) patch out vec3 patch_bezier[4];
 layout(location = 13) patch out vec3 patch_normals[2];
 layout(location = 15) patch out uint lane_masks[LANES];
+layout(location = 23) patch out uint patch_uneven;        // whether the pieces are cut by the table
+layout(location = 24) patch out vec4 patch_breaks[TABLED_BREAKS / 4u];
 
 // The slots of this group whose fibers are drawn over some of the piece, of every eighth from this lane's on, one bit
 // each.
@@ -60,17 +64,48 @@ uvec2 all_slots() {
     return mask;
 }
 
-uint pieces_of(Segment segment, vec3 b[4], float pixel_mm, uint most) {
-    float fiber_reach = yarn.ellipse_long;
+// Farthest that a fiber lies from its ply's centre: loops and hairs turn about it farther out than its other fibers.
+float fiber_reach() {
+    float radius = 1.0;
     if (FLYAWAYS) {
-        // Loops and hairs turn about the ply farther out than its other fibers.
         float hair = yarn.hair_probability > 0.0 ? yarn.hair_start_mean + yarn.hair_gain_mean : 0.0;
         float loop = yarn.loop_probability > 0.0 ? yarn.loop_radius_mean : 0.0;
-        fiber_reach *= max(1.0, max(hair, loop));
+        radius = max(radius, max(hair, loop));
     }
-    uint pieces = subdivisions(b, segment.ply_turns_delta, segment.fiber_turns_delta, yarn.ply_offset,
-                               fiber_reach, frame.tolerance_px * pixel_mm, PIECES_PER_TURN, most);
-    return FLYAWAYS ? period_pieces(pieces, period_rate(segment, yarn), most) : pieces;
+    float beyond = max(radius - surface_radius(yarn), 0.0);
+    return max(radius * yarn.ellipse_short + beyond * yarn.beyond_short,
+               radius * yarn.ellipse_long + beyond * yarn.beyond_long);
+}
+
+// Pieces of a fiber along `b` by the turns of plies and fibers, at most `most`.
+uint twisted_pieces(Segment segment, vec3 b[4], float reach, float tolerance_mm, uint most) {
+    return subdivisions(b, segment.ply_turns_delta, segment.fiber_turns_delta, yarn.ply_offset, reach, tolerance_mm,
+                        PIECES_PER_TURN, most);
+}
+
+Cut cut_of(Segment segment, vec3 b[4], Turning turning, float pixel_mm, uint most) {
+    float reach = fiber_reach();
+    float tolerance_mm = frame.tolerance_px * pixel_mm;
+    vec3 nowhere[4] = vec3[4](b[0], b[0], b[0], b[0]);
+    uint even = twisted_pieces(segment, b, reach, tolerance_mm, most);
+    uint calm = twisted_pieces(segment, nowhere, reach, tolerance_mm, most);
+    Cut cut = uneven_cut(turning, b, even, calm, yarn.ply_offset + reach, tolerance_mm, most);
+    if (FLYAWAYS) {
+        // Where cuts follow turns, steps elsewhere are longer.
+        cut.pieces = period_pieces(cut.pieces, period_rate(segment, yarn) / (1.0 - cut.share), most);
+    }
+    return cut;
+}
+
+// Where the pieces of a fiber end, for those that are not equally long.
+void hand_on_breaks(Turning turning, float turned_share) {
+    patch_uneven = turned_share > 0.0 ? 1u : 0u;
+    // A count that is not known before the shader runs: software devices would do it all for every piece.
+    uint count = turned_share > 0.0 ? TABLED_BREAKS : 0u;
+    for (uint k = 0u; k < count; ++k) {
+        float share = float(k + 1u) / float(TABLED_BREAKS);
+        patch_breaks[k / 4u][k % 4u] = k + 1u < count ? break_at(turning, turned_share, share) : 1.0;
+    }
 }
 
 // What the evaluation stage would unpack and fetch for every vertex.
@@ -108,19 +143,29 @@ void main() {
         patch_mask = all_slots();
         fiber_count = uint(bitCount(patch_mask.x) + bitCount(patch_mask.y));
     }
-    uint pieces = culled || fiber_count == 0u ? 1u : pieces_of(segment, b, pixel_mm, yarn.max_subdivisions);
+    Turning turning = turning_of(b);
+    Cut cut = Cut(1u, 0.0);
+    if (!culled && fiber_count > 0u) {
+        cut = cut_of(segment, b, turning, pixel_mm, yarn.max_subdivisions);
+    }
+    uint pieces = cut.pieces;
     patch_segment = segment_index[0];
     patch_first_fiber = first_fiber[0];
     // The evaluation stage sees levels before clamping, so it gets the counts themselves.
     patch_fibers = fiber_count;
     patch_pieces = pieces;
     hand_on(segment, span);
+    hand_on_breaks(turning, cut.share);
     gl_TessLevelOuter[0] = culled ? 0.0 : float(fiber_count);
     gl_TessLevelOuter[1] = culled ? 0.0 : float(pieces);
     if (STATISTICS) {
         if (first_fiber[0] == 0 && !elsewhere) {
             count_patch(outside);
-            count_coarse(!outside && pieces_of(segment, b, pixel_mm, yarn.max_subdivisions + 1u) > yarn.max_subdivisions);
+            Cut needed = cut_of(segment, b, turning, pixel_mm, yarn.max_subdivisions + 1u);
+            count_coarse(!outside && needed.pieces > yarn.max_subdivisions);
+            if (!outside) {
+                count_shadow_limits(segment.first_point);
+            }
         }
         count_segments(culled ? 0 : fiber_count * pieces);
     }

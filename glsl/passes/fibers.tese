@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "bindings.glsl"
 #include "../yarn/fetch.glsl"
+#include "../yarn/turning.glsl"
 #include "../shared/debug_views.glsl"
 #include "level.glsl"
 #include "shown.glsl"
@@ -22,6 +23,8 @@ layout(location = 7) patch in vec2 patch_length;        // rest length before th
 layout(location = 8) patch in uvec4 patch_curve;        // first point, curve, migration period, their number
 layout(location = 9) patch in vec3 patch_bezier[4];
 layout(location = 13) patch in vec3 patch_normals[2];
+layout(location = 23) patch in uint patch_uneven;         // whether the pieces are cut by the table
+layout(location = 24) patch in vec4 patch_breaks[TABLED_BREAKS / 4u];
 
 layout(location = 0) out vec3 position_world;
 layout(location = 1) out vec4 tangent_world;   // a: share of the fiber's width
@@ -39,6 +42,23 @@ Segment handed_segment() {
     return Segment(patch_curve.x, patch_curve.y, int(patch_curve.z), patch_curve.w, patch_turns.x, patch_turns.y,
                    patch_turns.z, patch_length.x, patch_turns_delta.x, patch_turns_delta.y, patch_turns_delta.z,
                    patch_length.y);
+}
+
+// Where the piece is cut for the `place`-th time.
+float cut_at(float place) {
+    float share = place / float(patch_pieces);
+    return patch_uneven != 0u ? tabled_break(patch_breaks, share) : share;
+}
+
+// Where the vertices beside that at t = cut_at(place) lie: outside of 0 to 1 where there is none.
+vec2 cuts_beside(float place, float t) {
+    float before = t - 1.0 / float(patch_pieces);
+    float behind = t + 1.0 / float(patch_pieces);
+    if (patch_uneven != 0u) {
+        before = place > 0.5 ? cut_at(place - 1.0) : -1.0;
+        behind = place + 0.5 < float(patch_pieces) ? cut_at(place + 1.0) : 2.0;
+    }
+    return vec2(before, behind);
 }
 
 // Factor of the fiber's own width where level of detail is at work: `flies` where it stands out of the ply as a
@@ -74,7 +94,7 @@ void main() {
     uint slot = patch_first_fiber + (CORE_FIBERS ? nth_set_bit(patch_mask, line) : line);
     drawn_fiber = CORE_FIBERS ? fiber_of_slot(slot, yarn) : slot;
     float place = floor(gl_TessCoord.x * float(patch_pieces) + 0.5);
-    float t = place / float(patch_pieces);
+    float t = cut_at(place);
     Segment segment = handed_segment();
     Span span = Span(patch_bezier, patch_normals[0], patch_normals[1]);
     FiberPoint f;
@@ -82,7 +102,7 @@ void main() {
     ivec4 joins;
     if (FLYAWAYS) {
         StrandVertex vertex;
-        f = fetch_fiber_vertex(segment, span, drawn_fiber, t, patch_pieces, vertex);
+        f = fetch_fiber_vertex(segment, span, drawn_fiber, t, cuts_beside(place, t), vertex);
         // Beyond its tip a hair's period goes on as a fiber that only migrates.
         bool migrates = vertex.period.kind == KIND_HAIR && !on_hair(vertex.period, vertex.x);
         uint kind = migrates ? KIND_MIGRATION : vertex.period.kind;

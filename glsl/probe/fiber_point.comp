@@ -26,6 +26,9 @@ void run() {
     yarn.ellipse_long = take_float();
     yarn.migration_min = take_float();
     yarn.migration_max = take_float();
+    // A fiber that only migrates never lies beyond its ply.
+    yarn.beyond_short = 0.0;
+    yarn.beyond_long = 0.0;
     Fiber fiber;
     fiber.radius = take_float();
     fiber.angle = take_float();

@@ -86,7 +86,11 @@ struct Yarn {
     float shadow_radius;    // of the opaque tube that takes as much light from others
     float ply_cos;          // of the angle from each ply to the next
     float ply_sin;
-    uint padding;
+    float beyond_short;     // more than ellipse_short by which a unit of R moves a fiber outside of the ply's surface;
+    float beyond_long;      // likewise: 0 but in plies flatter than any that was measured
+    uint padding_0;
+    uint padding_1;
+    uint padding_2;
     vec4 occlusion;         // visibility as a cubic of (distance from the centre / outer_radius)
     vec4 occlusion_lean;    // how much more of it comes from outside, likewise
     vec4 diffuse;           // k_d, rgb; a: extinction per outer_radius
@@ -146,6 +150,8 @@ struct Statistics {
     uint fiber_segments_low;
     uint fiber_segments_high;
     uint patches_coarse;    // drawn with fewer pieces of fiber than the tolerance asks for
+    uint patches_along_light;          // drawn and lying so along a light that its own tube may shadow it
+    uint patches_softer_than_searched; // drawn and farther from what may hide it than soft shadows are looked up
 };
 
 #endif

@@ -56,16 +56,17 @@ StrandVertex tip_vertex(Period period, float t, float rate) {
     return vertex;
 }
 
-// The vertex at t of `pieces` equal steps. Where a hair's tip lies between it and a neighbour, on whose
-// side the hair is, the vertex moves onto the tip: hairs have their true length however coarsely drawn.
-StrandVertex strand_vertex(Segment segment, Fiber fiber, uint fiber_index, float t, uint pieces, Yarn yarn) {
+// The vertex at t between two at `neighbours`, which outside of 0 to 1 are none. Where a hair's tip lies between it and
+// one of them, on whose side the hair is, the vertex moves onto the tip: hairs have their true length however coarsely
+// drawn.
+StrandVertex strand_vertex(Segment segment, Fiber fiber, uint fiber_index, float t, vec2 neighbours, Yarn yarn) {
     float u = period_turns(segment, fiber, t, yarn);
     float rate = period_rate(segment, yarn);
     int base = period_base(segment, yarn);
     int own_index = base + int(floor(u));
     Period own = draw_period(segment, fiber, fiber_index, own_index, yarn);
-    for (int side = -1; side <= 1; side += 2) {
-        float t_neighbour = t + float(side) / float(pieces);
+    for (int side = 0; side < 2; ++side) {
+        float t_neighbour = neighbours[side];
         if (t_neighbour < -1e-4 || t_neighbour > 1.0001) {
             continue;
         }

@@ -55,11 +55,11 @@ FiberPoint fetch_fiber_at(Segment segment, Span span, uint fiber_index, float t,
     return fetch_fiber_point(segment, span, fiber, t, shape);
 }
 
-// A vertex of the fiber drawn in `steps` pieces, with what joins it to its neighbours.
-FiberPoint fetch_fiber_vertex(Segment segment, Span span, uint fiber_index, float t, uint steps,
+// A vertex of the fiber, with what joins it to those at `neighbours`.
+FiberPoint fetch_fiber_vertex(Segment segment, Span span, uint fiber_index, float t, vec2 neighbours,
                               out StrandVertex vertex) {
     Fiber fiber = fibers[fiber_index];
-    vertex = strand_vertex(segment, fiber, fiber_index, t, steps, yarn);
+    vertex = strand_vertex(segment, fiber, fiber_index, t, neighbours, yarn);
     FiberShape shape = period_shape(fiber, vertex.period, vertex.x, period_rate(segment, yarn), yarn);
     return fetch_fiber_point(segment, span, fiber, vertex.t, shape);
 }

@@ -82,6 +82,11 @@ YarnPoint yarn_point(vec3 b[4], vec3 normal_start, vec3 normal_end, float t) {
     return y;
 }
 
+// R of the ply's surface: fibers that only migrate lie within.
+float surface_radius(Yarn yarn) {
+    return max(1.0, yarn.migration_max);
+}
+
 // Wu & Yuksel 2019, Sec. 3.1: ply centre, then the fiber inside the ply's rotating elliptical frame.
 FiberPoint fiber_point(YarnPoint yarn_at, Twist twist, Yarn yarn, Fiber fiber, FiberShape shape) {
     float ply_angle = TWO_PI * float(fiber.ply) / float(yarn.ply_count) + twist.ply;
@@ -95,6 +100,13 @@ FiberPoint fiber_point(YarnPoint yarn_at, Twist twist, Yarn yarn, Fiber fiber, F
     float y = shape.radius * sin_fiber * yarn.ellipse_long;
     float x_rate = (shape.radius_rate * cos_fiber - shape.radius * sin_fiber * fiber_rate) * yarn.ellipse_short;
     float y_rate = (shape.radius_rate * sin_fiber + shape.radius * cos_fiber * fiber_rate) * yarn.ellipse_long;
+    // What lies beyond the ply's surface stands out by a length of its own where the ply is flat.
+    float beyond = max(shape.radius - surface_radius(yarn), 0.0);
+    float beyond_rate = beyond > 0.0 ? shape.radius_rate : 0.0;
+    x += beyond * cos_fiber * yarn.beyond_short;
+    y += beyond * sin_fiber * yarn.beyond_long;
+    x_rate += (beyond_rate * cos_fiber - beyond * sin_fiber * fiber_rate) * yarn.beyond_short;
+    y_rate += (beyond_rate * sin_fiber + beyond * cos_fiber * fiber_rate) * yarn.beyond_long;
 
     vec3 binormal = cross(yarn_at.tangent, yarn_at.normal);
     vec3 normal_ply = cos(ply_angle) * yarn_at.normal + sin(ply_angle) * binormal;

@@ -41,6 +41,12 @@ pub struct Stats {
     /// Of those drawn, how many have fibers that are cut less finely than `quality.subdivision_tolerance_px` asks for:
     /// `quality.max_subdivisions` limits them.
     pub patches_coarse: Option<u64>,
+    /// Of those drawn, how many lie so nearly along a light with a shadow (within atan 1/24) that their own yarn's tube may
+    /// shadow them.
+    pub patches_along_light: Option<u64>,
+    /// Of those drawn, how many are so far from where a wide light's shadow begins that its edge may be wider than the 24
+    /// texels over which it is looked up.
+    pub patches_softer_than_searched: Option<u64>,
     /// Wall time of whole pictures on the device.
     pub frame_ms: Spread,
     /// The same by the device's own clock, where it has one.
@@ -99,6 +105,8 @@ impl Stats {
             patches_drawn: None,
             patches_culled: None,
             patches_coarse: None,
+            patches_along_light: None,
+            patches_softer_than_searched: None,
             frame_ms: Spread::default(),
             device_ms: None,
             passes: BTreeMap::new(),
@@ -181,6 +189,8 @@ impl Stats {
         self.patches_drawn = Some(counted.patches_drawn.into());
         self.patches_culled = Some(u64::from(counted.patches_culled) + unseen);
         self.patches_coarse = Some(counted.patches_coarse.into());
+        self.patches_along_light = Some(counted.patches_along_light.into());
+        self.patches_softer_than_searched = Some(counted.patches_softer_than_searched.into());
     }
 
     pub(super) fn add_frame(&mut self, taken: Taken, passes: HashMap<&'static str, Duration>) {
@@ -283,6 +293,8 @@ mod tests {
                 patches_drawn: None,
                 patches_culled: None,
                 patches_coarse: None,
+                patches_along_light: None,
+                patches_softer_than_searched: None,
                 frame_ms: Spread::default(),
                 device_ms: None,
                 passes: BTreeMap::new(),

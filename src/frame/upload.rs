@@ -20,7 +20,7 @@ use crate::yarn::fetch::period_seed;
 use crate::yarn::flyaway::Flyaways;
 use crate::yarn::params::Spread;
 use crate::yarn::table;
-use glam::{DMat4, DVec3, DVec4};
+use glam::{DMat4, DVec2, DVec3, DVec4};
 use half::f16;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -60,6 +60,7 @@ fn yarn(
     let params = &fabric.yarn;
     let flyaways = Flyaways::new(params);
     let plies = Plies::new(params);
+    let beyond = params.beyond_mm() - DVec2::new(params.ellipse_short_mm, params.ellipse_long_mm);
     let spread = |spread: Spread| (spread.mean as f32, spread.deviation as f32);
     let (loop_radius_mean, loop_radius_sd) = spread(flyaways.loop_radius);
     let (hair_start_mean, hair_start_sd) = spread(flyaways.hair_start);
@@ -121,7 +122,11 @@ fn yarn(
         shadow_radius: bakes.shadow_radius_mm as f32,
         ply_cos: plies.turn.x as f32,
         ply_sin: plies.turn.y as f32,
-        padding: 0,
+        beyond_short: beyond.x as f32,
+        beyond_long: beyond.y as f32,
+        padding_0: 0,
+        padding_1: 0,
+        padding_2: 0,
         diffuse: with(DVec3::from_array(fiber.diffuse()), bakes.extinction),
         specular: with(DVec3::from_array(fiber.specular()), fiber.specular_width()),
         reflection: with(scattering.c_r, scattering.beta_r),

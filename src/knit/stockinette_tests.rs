@@ -8,6 +8,8 @@ use super::layout::Layout;
 use super::params::KnitParams;
 use super::stockinette::{KEPT_DISTANCE, stockinette};
 use crate::io::curves::CurveSet;
+use crate::math::curve::bezier_from_basis;
+use crate::yarn::turning::turning_of;
 
 fn params(courses: u32, wales: u32, yarn_radius_mm: f64, gauge: [f64; 2], points: u32) -> KnitParams {
     KnitParams {
@@ -182,4 +184,18 @@ fn bad_parameters_are_named_in_one_line() {
         let line = stockinette(&p).unwrap_err().to_string();
         assert!(line.contains("expected") && !line.contains('\n'), "{line}");
     }
+}
+
+#[test]
+fn fibers_of_knitted_cloth_are_cut_evenly() {
+    let mut seen = 0;
+    for points in [16, 24, 64] {
+        let set = stockinette(&KnitParams { points_per_loop: points, ..KnitParams::swatch() }).unwrap();
+        for window in set.curves.iter().flat_map(|curve| curve.points.windows(4)) {
+            let b = bezier_from_basis(&[window[0], window[1], window[2], window[3]], set.basis);
+            assert_eq!(turning_of(&b).swift, 0.0, "{window:?}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 100);
 }

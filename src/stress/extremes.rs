@@ -73,6 +73,9 @@ fn coil() -> Result<CurveSet, Error> {
     Ok(set(Basis::CatmullRom, (0..70).map(at).collect(), false))
 }
 
+/// Pieces of 9 and 17 mm hold as many turns of their fibers as twenty of a usual model.
+const LONG_PIECES: &str = "quality.max_subdivisions = 64";
+
 /// The ten.
 pub static EXTREMES: [Extreme; 10] = [
     Extreme {
@@ -96,8 +99,20 @@ pub static EXTREMES: [Extreme; 10] = [
         curves: swatch,
         covered: [0.2, 1.0],
     },
-    Extreme { name: "hairpins of 180 degrees", scene: "", yarn: "", curves: hairpins, covered: [0.05, 0.9] },
-    Extreme { name: "a cusp and a repeated point", scene: "", yarn: "", curves: cusps, covered: [0.02, 0.9] },
+    Extreme {
+        name: "hairpins of 180 degrees",
+        scene: LONG_PIECES,
+        yarn: "",
+        curves: hairpins,
+        covered: [0.05, 0.9],
+    },
+    Extreme {
+        name: "a cusp and a repeated point",
+        scene: LONG_PIECES,
+        yarn: "",
+        curves: cusps,
+        covered: [0.02, 0.9],
+    },
     Extreme { name: "bends tighter than the yarn", scene: "", yarn: "", curves: coil, covered: [0.02, 0.9] },
     Extreme {
         name: "ellipses 100:1",

@@ -53,21 +53,26 @@ pub fn meets_tip(period: &Period, u: f64, neighbour: f64) -> Option<f64> {
     (period.kind == Kind::Hair && meets).then_some(tip)
 }
 
-/// The vertex at t of `pieces` equal steps. Where a hair's tip lies between it and a neighbour, on whose
-/// side the hair is, the vertex moves onto the tip: hairs have their true length however coarsely drawn.
+/// Where the neighbours of the vertex at t of `pieces` equal steps lie.
+pub fn neighbours(t: f64, pieces: u32) -> [f64; 2] {
+    [-1.0, 1.0].map(|side| t + side / f64::from(pieces))
+}
+
+/// The vertex at t between two at `neighbours`, which outside of 0 to 1 are none. Where a hair's tip lies between it and
+/// one of them, on whose side the hair is, the vertex moves onto the tip: hairs have their true length however coarsely
+/// drawn.
 pub fn strand_vertex(
     turns: &PieceTurns,
     fiber: &Fiber,
     fiber_index: u32,
     t: f64,
-    pieces: u32,
+    neighbours: [f64; 2],
     periods: &CurvePeriods,
     flyaways: &Flyaways,
 ) -> StrandVertex {
     let draw = |u: f64| draw_period(periods, fiber, fiber_index, u.floor() as i32, flyaways);
     let (u, rate) = (period_turns(turns, fiber, t, flyaways), period_rate(turns, flyaways));
-    for side in [-1.0, 1.0] {
-        let t_neighbour = t + side / f64::from(pieces);
+    for t_neighbour in neighbours {
         if !(-1e-4..=1.0001).contains(&t_neighbour) {
             continue;
         }
@@ -114,7 +119,7 @@ mod tests {
             (0..=pieces)
                 .map(|i| {
                     let t = f64::from(i) / f64::from(pieces);
-                    strand_vertex(&turns, &fiber, fiber_index, t, pieces, &PERIODS, &flyaways)
+                    strand_vertex(&turns, &fiber, fiber_index, t, neighbours(t, pieces), &PERIODS, &flyaways)
                 })
                 .collect::<Vec<_>>()
         };

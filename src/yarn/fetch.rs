@@ -1,6 +1,6 @@
 //! Fibers of a whole fabric, by index; twin of `glsl/yarn/fetch.glsl`, whose buffers this holds in f64.
 
-use super::breaks::{StrandVertex, strand_vertex};
+use super::breaks::{StrandVertex, neighbours, strand_vertex};
 use super::fiber::{FiberPoint, fiber_point, twist_at, yarn_point};
 use super::flyaway::Flyaways;
 use super::params::YarnParams;
@@ -62,7 +62,7 @@ impl FiberField {
         (self.fiber_point(piece, fiber, t, &shape), period)
     }
 
-    /// A vertex of the fiber drawn in `pieces` steps, with what joins it to its neighbours.
+    /// A vertex of the fiber drawn in `pieces` equal steps, with what joins it to its neighbours.
     pub fn fiber_vertex(
         &self,
         piece: &Piece,
@@ -72,8 +72,8 @@ impl FiberField {
     ) -> (FiberPoint, StrandVertex) {
         let fiber = &self.fibers[fiber_index];
         let periods = self.periods(piece);
-        let vertex =
-            strand_vertex(&piece.turns, fiber, fiber_index as u32, t, pieces, &periods, &self.flyaways);
+        let (index, beside) = (fiber_index as u32, neighbours(t, pieces));
+        let vertex = strand_vertex(&piece.turns, fiber, index, t, beside, &periods, &self.flyaways);
         let shape = self.shape(piece, fiber, &vertex.period, vertex.x);
         (self.fiber_point(piece, fiber, vertex.t, &shape), vertex)
     }

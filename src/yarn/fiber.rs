@@ -147,8 +147,13 @@ pub fn fiber_point(
     // Offsets in the ply's frame: x away from the yarn's centre, y around it.
     let axes = DVec2::new(yarn.ellipse_short_mm, yarn.ellipse_long_mm);
     let (outward, around) = (DVec2::new(cos_fiber, sin_fiber), DVec2::new(-sin_fiber, cos_fiber));
-    let offset = shape.radius * outward * axes;
-    let rate = (shape.radius_rate * outward + shape.radius * fiber_rate * around) * axes;
+    // What lies beyond the ply's surface stands out by a length of its own where the ply is flat.
+    let beyond = (shape.radius - yarn.surface_radius()).max(0.0);
+    let beyond_rate = if beyond > 0.0 { shape.radius_rate } else { 0.0 };
+    let more = yarn.beyond_mm() - axes;
+    let offset = (shape.radius * axes + beyond * more) * outward;
+    let rate = (shape.radius_rate * axes + beyond_rate * more) * outward
+        + (shape.radius * axes + beyond * more) * fiber_rate * around;
 
     let binormal = yarn_at.tangent.cross(yarn_at.normal);
     let normal_ply = ply_angle.cos() * yarn_at.normal + ply_angle.sin() * binormal;
@@ -230,6 +235,57 @@ mod tests {
         let h = 1e-6;
         let slope = (at(0.6 + h).position - at(0.6 - h).position).normalize();
         assert!((slope - at(0.6).tangent).length() < 1e-8);
+    }
+
+    #[test]
+    fn what_stands_out_of_a_flat_ply_does_so_by_its_own_length_on_all_sides() {
+        let flat = YarnParams {
+            ellipse_short_mm: 0.007,
+            ellipse_long_mm: 0.7,
+            migration_max: 1.0,
+            ..presets::yarn("worsted_3ply").unwrap()
+        };
+        let y = yarn_point(&[0.0, 1.0, 2.0, 3.0].map(|x| DVec3::X * x), [DVec3::Y; 2], 0.5);
+        let twist = twist_at(&PieceTurns::default(), 0.5);
+        let at = |angle: f64, radius: f64| {
+            let fiber = Fiber { radius: 1.0, angle, migration_phase: 0.0, ply: 0 };
+            let shape = FiberShape { radius, radius_rate: 1.0, angle: 0.0, angle_rate: 2.0, width: 1.0 };
+            fiber_point(&y, &twist, &flat, &fiber, &shape).position
+        };
+        for i in 0..32 {
+            let angle = f64::from(i) * TAU / 32.0;
+            // 0.07 mm is the radius of the circle of the same area.
+            let out = at(angle, 5.0).distance(at(angle, 1.0)) / (4.0 * 0.07);
+            assert!((0.8..1.25).contains(&out), "{angle}: {out}");
+            assert!(at(angle, 1.0 + 1e-9).distance(at(angle, 1.0)) < 1e-9, "no step at the surface");
+        }
+    }
+
+    #[test]
+    fn tangent_matches_a_finite_difference_in_and_beyond_a_flat_ply() {
+        let flat = YarnParams {
+            ellipse_short_mm: 0.02,
+            ellipse_long_mm: 0.7,
+            ..presets::yarn("worsted_3ply").unwrap()
+        };
+        let fiber = Fiber { radius: 0.8, angle: 1.0, migration_phase: 2.0, ply: 2 };
+        let (p, turns) = straight(0.2);
+        for radius in [0.5, 3.0] {
+            let at = |t: f64| {
+                let y = yarn_point(&p, [DVec3::Y, DVec3::Y], t);
+                let shape = FiberShape {
+                    radius: radius + 0.4 * t,
+                    radius_rate: 0.4,
+                    angle: 1.1 * t,
+                    angle_rate: 1.1,
+                    width: 1.0,
+                };
+                fiber_point(&y, &twist_at(&turns, t), &flat, &fiber, &shape)
+            };
+            let h = 1e-6;
+            let slope = (at(0.4 + h).position - at(0.4 - h).position).normalize();
+            assert!((slope - at(0.4).tangent).length() < 1e-8, "{radius}");
+        }
     }
 
     #[test]

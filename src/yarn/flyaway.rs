@@ -1,6 +1,7 @@
 //! How often fibers leave the ply and how far, as the shaders want it: per period of the fibers' radius.
 
 use super::params::{Spread, YarnParams};
+use glam::DVec2;
 
 /// Largest deviations that a normal number is allowed (`normal_from_words`).
 const CUT: f64 = 3.0;
@@ -80,9 +81,7 @@ impl Flyaways {
             periods_per_migration: periods as u32,
             reach_mm: yarn.outer_radius_mm(),
         };
-        all.reach_mm = all
-            .reach_mm
-            .max(yarn.ply_offset_mm() + all.most_radius() * yarn.ellipse_long_mm.max(yarn.ellipse_short_mm));
+        all.reach_mm = all.reach_mm.max(yarn.ply_offset_mm() + most_offset_mm(yarn, all.most_radius()));
         all
     }
 
@@ -99,6 +98,13 @@ impl Flyaways {
             if self.hair_probability > 0.0 { most(self.hair_start) + most(self.hair_gain) } else { 0.0 };
         loops.max(hairs)
     }
+}
+
+/// Farthest that a fiber at R = `radius` lies from its ply's centre.
+fn most_offset_mm(yarn: &YarnParams, radius: f64) -> f64 {
+    let axes = DVec2::new(yarn.ellipse_short_mm, yarn.ellipse_long_mm);
+    let beyond = (radius - yarn.surface_radius()).max(0.0);
+    (radius * axes + beyond * (yarn.beyond_mm() - axes)).max_element()
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 pub mod breaks;
 pub mod contact;
 pub mod core;
+pub mod cusps;
 pub mod density;
 pub mod detail;
 pub mod fetch;
@@ -22,4 +23,5 @@ pub mod strand;
 pub mod table;
 pub mod transport;
 pub mod tube;
+pub mod turning;
 pub mod zhao;

@@ -2,6 +2,7 @@
 //! may be stands once, in [`super::ranges::PARAMETERS`].
 
 use super::ranges::{PARAMETERS, ParamError};
+use glam::{DVec2, Vec2Swizzles};
 use serde::{Deserialize, Serialize};
 use toml::Table;
 
@@ -11,6 +12,9 @@ pub const MAX_FIBERS: u32 = 16_000;
 /// Most times that a yarn's outer radius may be the shorter half-axis of its plies: f32 has no place for thinner ones in
 /// the yarn's cross-section.
 pub const MOST_THIN: f64 = 1000.0;
+
+/// Most times as long as wide that a ply's ellipse is outside of the ply: the flattest of the fitted yarns is 1.49.
+pub const MOST_FLAT: f64 = 1.5;
 
 /// A normal distribution; `[mean, deviation]` in files.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -40,7 +44,8 @@ impl From<Spread> for [f64; 2] {
 /// Fly-aways (loops and hairs) are stated in the *round* ply: distances r from the ply's centre in mm, before
 /// the cross-section is pressed to its ellipse, so that R = r / [`Self::round_ply_radius_mm`], and angles in
 /// the frame that turns with the ply but not with its fibers. Zhao et al.'s generator makes them in that
-/// space, then presses and turns them with the ply.
+/// space, then presses and turns them with the ply. Plies flatter than any that was measured are pressed so only up
+/// to their surface: [`YarnParams::beyond_mm`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct YarnParams {
@@ -112,6 +117,24 @@ impl YarnParams {
     /// Radius of the circle with the area of the ply's ellipse: what fly-aways' distances are shares of.
     pub fn round_ply_radius_mm(&self) -> f64 {
         (self.ellipse_short_mm * self.ellipse_long_mm).sqrt()
+    }
+
+    /// R of the ply's surface: fibers that only migrate lie within.
+    pub fn surface_radius(&self) -> f64 {
+        self.migration_max.max(1.0)
+    }
+
+    /// Half-axes in mm, short then long, by which a unit of R moves a fiber outside of its ply's surface: the ellipse's
+    /// own, up to [`MOST_FLAT`]. What stands out of a flatter ply does so by as much as of one that flat of the same
+    /// area, on all sides: a hair's length is its own.
+    pub fn beyond_mm(&self) -> DVec2 {
+        let axes = DVec2::new(self.ellipse_short_mm, self.ellipse_long_mm);
+        let (low, high) = (axes.min_element(), axes.max_element());
+        if high <= MOST_FLAT * low {
+            return axes;
+        }
+        let flat = DVec2::new(1.0 / MOST_FLAT.sqrt(), MOST_FLAT.sqrt()) * self.round_ply_radius_mm();
+        if axes.x < axes.y { flat } else { flat.yx() }
     }
 
     /// The shorter half-axis of a ply: its key, and the axis in mm.
@@ -213,6 +236,23 @@ mod tests {
                 .fold(0.0, f64::max);
             let outer = yarn.outer_radius_mm();
             assert!((outer - farthest).abs() < 1e-8, "{short} {long}: {outer} vs {farthest}");
+        }
+    }
+
+    #[test]
+    fn only_plies_flatter_than_any_measured_are_rounder_outside() {
+        for name in presets::yarn_names() {
+            let yarn = presets::yarn(name).unwrap();
+            let axes = DVec2::new(yarn.ellipse_short_mm, yarn.ellipse_long_mm);
+            assert_eq!(yarn.beyond_mm(), axes, "{name}");
+            for flat in [0.01, 0.1, 0.6, 1.0 / 0.6, 10.0, 100.0] {
+                let (short, long) = (0.3 / f64::sqrt(flat), 0.3 * f64::sqrt(flat));
+                let flat_yarn = YarnParams { ellipse_short_mm: short, ellipse_long_mm: long, ..yarn.clone() };
+                let beyond = flat_yarn.beyond_mm();
+                assert!((beyond.x * beyond.y - 0.09).abs() < 1e-12, "the same area: {beyond}");
+                let ratio = beyond.y / beyond.x;
+                assert!((ratio - flat.clamp(1.0 / MOST_FLAT, MOST_FLAT)).abs() < 1e-12, "{flat}: {ratio}");
+            }
         }
     }
 

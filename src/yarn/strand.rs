@@ -1,5 +1,6 @@
 //! Centre lines made ready for fibers: windows of control points, rest lengths, turns and frames.
 
+use super::cusps::opened;
 use super::fiber::{PieceTurns, Turns, piece_tangent};
 use super::params::YarnParams;
 use super::transport::{close_normals, knot_normals};
@@ -207,6 +208,7 @@ fn append(all: &mut Strands, index: usize, made: Prepared) {
 }
 
 fn prepared(index: usize, curve: &Curve, basis: Basis, yarn: &YarnParams, seed: u64) -> Prepared {
+    let curve = &*opened(curve, basis);
     let points = window_points(curve, basis);
     let stride = basis.point_stride();
     let starts: Vec<usize> = (0..points.len().saturating_sub(3)).step_by(stride).collect();

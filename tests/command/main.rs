@@ -46,7 +46,7 @@ fn the_same_command_writes_the_same_bytes_and_another_seed_others() {
 }
 
 /// Every key of the statistics, and whether its value must be above 0.
-const KEYS: [(&str, bool); 22] = [
+const KEYS: [(&str, bool); 24] = [
     ("device", false),
     ("driver", false),
     ("size", false),
@@ -59,6 +59,8 @@ const KEYS: [(&str, bool); 22] = [
     ("patches_drawn", true),
     ("patches_culled", true),
     ("patches_coarse", false),
+    ("patches_along_light", false),
+    ("patches_softer_than_searched", false),
     ("frame_ms", false),
     ("passes", false),
     ("timing_method", false),

@@ -4,7 +4,7 @@
 use crate::harness::{Args, Case, Part, Row, number, vector};
 use crate::inputs::{Random, RowBuilder, random_rows, row, some_yarn};
 use crate::math_cases::is_unit;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 use worsted::yarn::fiber::{self, Twist, YarnPoint};
 use worsted::yarn::params::YarnParams;
@@ -27,7 +27,9 @@ impl Arguments {
         let reals = |row: RowBuilder, values: &[f64]| values.iter().fold(row, |row, v| row.real(*v));
         let point = row().vec3(at.center).vec3(at.tangent).vec3(at.normal).real(at.speed).vec3(at.bend);
         let twisted = reals(point, &[twist.ply, twist.fiber, twist.ply_rate, twist.fiber_rate]);
-        let lengths = [yarn.ply_offset_mm(), yarn.ellipse_short_mm, yarn.ellipse_long_mm];
+        let axes = DVec2::new(yarn.ellipse_short_mm, yarn.ellipse_long_mm);
+        let beyond = yarn.beyond_mm() - axes;
+        let lengths = [yarn.ply_offset_mm(), axes.x, axes.y, beyond.x, beyond.y, yarn.migration_max];
         let placed = reals(reals(twisted.bits(yarn.ply_count), &lengths), &[fiber.angle]).bits(fiber.ply);
         reals(placed, &[shape.radius, shape.radius_rate, shape.angle, shape.angle_rate, shape.width]).end()
     }
@@ -53,6 +55,8 @@ impl Arguments {
             yarn_radius_mm: 2.0 * args.real(),
             ellipse_short_mm: args.real(),
             ellipse_long_mm: args.real(),
+            // What the device has of the half-axes beyond the ply's surface follows from these.
+            migration_max: (args.real(), args.real(), args.real()).2,
             ..some_yarn()
         };
         let fiber = Fiber { angle: args.real(), ply: args.bits(), ..NO_FIBER };
@@ -85,6 +89,7 @@ impl Arguments {
             yarn_radius_mm: size * random.between(0.2, 1.0),
             ellipse_short_mm: size * random.between(0.1, 0.6),
             ellipse_long_mm: size * random.between(0.1, 0.6),
+            migration_max: random.between(0.5, 1.5),
             ..some_yarn()
         };
         let shape = FiberShape {
@@ -117,8 +122,10 @@ fn extremes() -> Vec<Arguments> {
         arguments.fiber.ply = 0;
         arguments
     };
-    let edits: [fn(&mut Arguments); 10] = [
+    let edits: [fn(&mut Arguments); 12] = [
         |a| a.shape.radius = 0.0,
+        |a| (a.yarn.ellipse_short_mm, a.shape.radius) = (0.01 * a.yarn.ellipse_long_mm, 5.0),
+        |a| (a.yarn.ellipse_long_mm, a.shape.radius) = (0.01 * a.yarn.ellipse_short_mm, 5.0),
         |a| a.yarn.yarn_radius_mm = 0.0,
         |a| (a.at.speed, a.at.bend) = (0.0, DVec3::ZERO),
         // A cusp: the centre line stands still but bends.
@@ -159,4 +166,16 @@ pub fn case() -> Case {
     let mut rows = random_rows("fiber_point", |random| Arguments::random(random).into_row());
     rows.extend(extremes().into_iter().map(Arguments::into_row));
     Case { function: "fiber_point", rows, twin, invariant: Some(|_, found| is_unit(&found[12..15])) }
+}
+
+pub fn surface_radius() -> Case {
+    Case {
+        function: "surface_radius",
+        rows: random_rows("surface_radius", |random| row().real(random.between(0.0, 1.5)).end()),
+        twin: |args| {
+            let yarn = YarnParams { migration_max: args.real(), ..some_yarn() };
+            vec![number("R", yarn.surface_radius(), 1e-3)]
+        },
+        invariant: None,
+    }
 }

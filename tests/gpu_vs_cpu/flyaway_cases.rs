@@ -295,13 +295,14 @@ fn strand_vertex() -> Case {
         let pieces = 12 + random.below(52);
         let placed = row().random_segment(random).random_fiber(random).bits(random.below(600));
         let t = f64::from(random.below(pieces + 1)) / f64::from(pieces);
-        placed.real(t).bits(pieces).random_hairy(random).end()
+        let [before, behind] = breaks::neighbours(t, pieces);
+        placed.real(t).real(before).real(behind).random_hairy(random).end()
     };
     case("strand_vertex", make, |args| {
         let (strand, fiber, index) = (args.strand(), args.fiber(), args.bits());
-        let (t, pieces, hairy) = (args.real(), args.bits(), args.hairy());
+        let (t, neighbours, hairy) = (args.real(), [args.real(), args.real()], args.hairy());
         let periods = with_periods(&strand, &hairy);
-        let v = breaks::strand_vertex(&strand.turns, &fiber, index, t, pieces, &periods, &hairy.flyaways);
+        let v = breaks::strand_vertex(&strand.turns, &fiber, index, t, neighbours, &periods, &hairy.flyaways);
         let mut parts = vec![number("t", v.t, 1.0), number("x", v.x, 1.0)];
         parts.extend([number("entry", v.entry.into(), 1.0), number("exit", v.exit.into(), 1.0)]);
         parts.extend(period_parts(&v.period));

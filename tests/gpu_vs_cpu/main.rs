@@ -26,6 +26,7 @@ mod scattering_tables;
 mod shading_cases;
 mod shadow_cases;
 mod table_reads;
+mod turning_cases;
 mod yarn_cases;
 
 use harness::{Case, Word, compare, twin_of};
@@ -35,7 +36,8 @@ fn cases() -> Vec<Case> {
     let mut all = math_cases::cases();
     all.extend(yarn_cases::cases());
     all.extend(packed_cases::cases());
-    all.push(fiber_case::case());
+    all.extend(turning_cases::cases());
+    all.extend([fiber_case::case(), fiber_case::surface_radius()]);
     all.extend(flyaway_cases::cases());
     all.extend(detail_cases::cases());
     all.extend(core_cases::cases());

@@ -113,7 +113,11 @@ pub fn layouts() -> Vec<Layout> {
             shadow_radius,
             ply_cos,
             ply_sin,
-            padding,
+            beyond_short,
+            beyond_long,
+            padding_0,
+            padding_1,
+            padding_2,
             occlusion,
             occlusion_lean,
             diffuse,
@@ -158,7 +162,9 @@ pub fn layouts() -> Vec<Layout> {
             patches_culled,
             fiber_segments_low,
             fiber_segments_high,
-            patches_coarse
+            patches_coarse,
+            patches_along_light,
+            patches_softer_than_searched
         }),
     ]
 }

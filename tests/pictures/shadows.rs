@@ -1,6 +1,6 @@
 //! Shadows between yarns and inside of them.
 
-use crate::draw::{draw, mean_channel, scene, swatch};
+use crate::draw::{draw, draw_counted, mean_channel, scene, swatch};
 use glam::DVec3;
 use worsted::io::curves::{Basis, Curve, CurveSet, UpAxis};
 use worsted::io::picture::LinearImage;
@@ -202,4 +202,26 @@ fn shadow_edges_stay_where_they_are_as_the_camera_moves() {
     }
     // Texels that lie elsewhere are seen.
     assert!(difference(3, "shadow.resolution=90") > 0.01);
+}
+
+#[test]
+fn pieces_on_which_a_limit_of_shadows_acts_are_counted() {
+    let yarn = straight(&[[0.0, 0.0], [3.0, 2.0]]);
+    let counted = |degrees: f64, spread_deg: f64, map: &str| {
+        let (sin, cos) = f64::to_radians(degrees).sin_cos();
+        let light = format!("light=[{{direction = [{cos}, {}, 0], angular_size_deg = {spread_deg}}}]", -sin);
+        let (_, stats) = draw_counted(scene(&yarn, &[&light, map]), SIZE, 1, true);
+        let limits = [stats.patches_along_light, stats.patches_softer_than_searched].map(Option::unwrap);
+        (limits, stats.patches_drawn.unwrap())
+    };
+    let shadowed = "shadow.map=true";
+    let (usual, drawn) = counted(40.0, 1.0, shadowed);
+    assert!(usual == [0, 0] && drawn > 5, "{usual:?} of {drawn}");
+    // 24 is the cotangent of 2.4 degrees.
+    assert_eq!(counted(2.6, 0.0, shadowed).0, [0, 0]);
+    let (along, drawn) = counted(2.2, 0.0, shadowed);
+    assert!(along == [drawn, 0] && drawn > 5, "{along:?} of {drawn}");
+    let (wide, drawn) = counted(40.0, 60.0, shadowed);
+    assert!(wide[0] == 0 && wide[1] > 5 && wide[1] <= drawn, "{wide:?} of {drawn}");
+    assert_eq!(counted(2.2, 60.0, "shadow.map=false").0, [0, 0]);
 }

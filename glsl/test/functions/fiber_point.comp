@@ -20,6 +20,9 @@ void run() {
     yarn.ply_offset = take_float();
     yarn.ellipse_short = take_float();
     yarn.ellipse_long = take_float();
+    yarn.beyond_short = take_float();
+    yarn.beyond_long = take_float();
+    yarn.migration_max = take_float();
     Fiber fiber;
     fiber.angle = take_float();
     fiber.ply = take_uint();

@@ -7,9 +7,10 @@ void run() {
     Fiber fiber = take_fiber();
     uint fiber_index = take_uint();
     float t = take_float();
-    uint pieces = take_uint();
+    float before = take_float();
+    float behind = take_float();
     Yarn yarn = take_yarn();
-    StrandVertex vertex = strand_vertex(segment, fiber, fiber_index, t, pieces, yarn);
+    StrandVertex vertex = strand_vertex(segment, fiber, fiber_index, t, vec2(before, behind), yarn);
     give(vertex.t);
     give(vertex.x);
     give(float(vertex.entry));
