@@ -4,6 +4,7 @@ mod bake;
 mod cloth;
 mod keeping;
 pub mod lighting;
+pub mod moving;
 pub mod packing;
 mod plan;
 pub mod sampling;
@@ -81,6 +82,7 @@ pub struct Renderer {
     /// What the pipelines, the buffers and the shadow map have room for.
     light_room: LightRoom,
     cloth: Cloth,
+    moving: moving::Moving,
     /// Fabric and number of pieces of each part that the fiber pass draws.
     parts: Vec<(usize, u32)>,
     shadow_map: Option<ShadowMapPass>,
@@ -177,7 +179,7 @@ impl Renderer {
         let bakes: Vec<Bakes> = of_fabrics
             .map(|((fabric, features), fibers)| Bakes::new(&scene, fabric, features, fibers, &mut bakery))
             .collect::<Result<_, _>>()?;
-        let mut parts = Vec::new();
+        let (mut parts, mut moving) = (Vec::new(), moving::Moving::default());
         let skies = bake::skies(&scene, &bakes, &features, &mut bakery);
         for (index, (fabric, features)) in scene.fabrics.iter().zip(features).enumerate() {
             let baked = upload::FabricBakes {
@@ -188,6 +190,7 @@ impl Renderer {
             let started = Instant::now();
             let uploaded = upload::fabric_buffers(device, &scene, fabric, &baked, first_piece)?;
             stats.add_upload(started.elapsed());
+            moving.add(index, fabric, scene.file.quality.points_per_buffer as usize, &uploaded);
             for (buffers, pieces) in uploaded {
                 fibers.add_fabric(&buffers, features)?;
                 let read_by = fibers.layouts(parts.len()).zip(fibers.sets(parts.len()));
@@ -199,6 +202,7 @@ impl Renderer {
             }
             stats.add_left_out(&features, |what| savings::saved_bytes(&scene, fabric, what));
         }
+        moving.keep_skies(skies);
         stats.add_left_out_bakes(|name| keeping::last_bake_ms(kept, name));
         let resolve = ResolvePass::new(building, &targets)?;
         let tonemap = TonemapPass::new(building, &targets, &scene.file.display)?;
@@ -217,6 +221,7 @@ impl Renderer {
             shadow_views,
             light_room,
             cloth,
+            moving,
             parts,
             shadow_map,
             fibers,

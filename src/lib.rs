@@ -7,7 +7,8 @@
 //! 2. [`scene`] resolves what a scene file says: fabrics in mm, camera, light, and the features needed.
 //! 3. [`yarn`] is the f64 truth: plies, fibers, migration, loops and hairs along a centre line.
 //! 4. [`precompute`] works out tables on the CPU.
-//! 5. [`frame`] uploads the scene once and draws pictures, one of [`passes`] after the other.
+//! 5. [`frame`] uploads the scene once and draws pictures, one of [`passes`] after the other; [`motion`] puts yarns that
+//!    move where a frame has them.
 //! 6. [`reference`](mod@reference) traces the same scene over its real fibers, slowly: the judge.
 //! 7. [`metrics`] says how far a picture is from another.
 //! 8. [`mod@bench`] measures error against run time.

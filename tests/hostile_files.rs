@@ -88,6 +88,8 @@ fn line_fault(line: &str, place: Place, file: &str) -> Option<String> {
         Place::Byte(at) => rest.is_some_and(|r| r.starts_with(&format!("byte {at}: "))),
         Place::Line(at) => rest.is_some_and(|r| r.starts_with(&format!("line {at}: "))),
         Place::Curve(at) => rest.is_some_and(|r| r.starts_with(&format!("curve {at}: "))),
+        Place::Frame(at) => rest.is_some_and(|r| r.starts_with(&format!("frame {at}: "))),
+        Place::Item(kind, at) => rest.is_some_and(|r| r.starts_with(&format!("{kind} {at}: "))),
     };
     let plain = line.len() < 200 && !line.contains(|c: char| c.is_control());
     (rest.is_none() || !placed || !plain).then(|| line.to_owned())

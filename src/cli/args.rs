@@ -1,6 +1,7 @@
 //! What can be typed.
 
 use super::bench_args::{Bench, Budget};
+use super::play_args::Play;
 use crate::frame::sampling::Sampling;
 use crate::knit::params::KnitParams;
 use crate::probe;
@@ -46,6 +47,9 @@ pub struct Common {
 pub enum Command {
     /// Draw a scene, or a bare yarn file, into a picture.
     Render(Render),
+    /// Draw a scene, or a bare yarn file with a motion, into one picture after the other. Stopped at any moment, the
+    /// same command goes on from there.
+    Play(Play),
     /// Trace a scene, or a bare yarn file, over its real fibers: slow, and what `render` is judged by. Stopped at
     /// any moment, the same command goes on from there.
     Reference(Reference),
@@ -72,7 +76,7 @@ pub enum Command {
 /// A scene and what is changed about it.
 #[derive(Debug, ClapArgs)]
 pub struct SceneArgs {
-    /// A scene (`.toml`) or a yarn file (`.bcc`, `.obj`).
+    /// A scene (`.toml`) or a yarn file (`.bcc`, `.obj`, `.gltf`, `.glb`).
     #[arg(value_name = "SCENE")]
     pub path: PathBuf,
     /// Set any scene key by its path; `null` removes it. May be given more than once.
@@ -81,6 +85,19 @@ pub struct SceneArgs {
     /// Seed of everything random.
     #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
     pub seed: Option<u64>,
+    /// Frames of the first fabric's motion: raw (`frames.f32`) or numbered files (`cloth.%04d.bcc`); as
+    /// `fabric.motion`, but relative to the working folder.
+    #[arg(long, value_name = "FILE")]
+    pub motion: Option<PathBuf>,
+}
+
+/// At what time.
+#[derive(Debug, ClapArgs)]
+pub struct TimeArgs {
+    /// Show this frame of the motion, counted from 0, fractions between two; as `animation.frame`. The model at rest
+    /// when not given.
+    #[arg(long, value_name = "N")]
+    pub frame: Option<f64>,
 }
 
 /// From where, and how large.
@@ -104,6 +121,9 @@ pub struct Render {
     /// The picture: `.png` as displayed, `.exr` as linear radiance. May be given more than once.
     #[arg(short, long, required = true)]
     pub output: Vec<PathBuf>,
+    /// When.
+    #[command(flatten)]
+    pub time: TimeArgs,
     /// How it is seen.
     #[command(flatten)]
     pub view: ViewArgs,
@@ -140,6 +160,9 @@ pub struct Reference {
     /// given more than once; beside the first, named `.part`, is kept what was done so far.
     #[arg(short, long, required = true)]
     pub output: Vec<PathBuf>,
+    /// When.
+    #[command(flatten)]
+    pub time: TimeArgs,
     /// How it is seen.
     #[command(flatten)]
     pub view: ViewArgs,
@@ -212,6 +235,9 @@ pub struct Export {
     /// What to show.
     #[command(flatten)]
     pub scene: SceneArgs,
+    /// When.
+    #[command(flatten)]
+    pub time: TimeArgs,
     /// The fibers, in mm, Y up: `.usda` as USD BasisCurves with widths; `.bcc` as polylines, their radii, yarns and
     /// plies in a JSON file beside it.
     #[arg(short, long)]
@@ -281,15 +307,29 @@ pub struct Knitting {
     /// Control points of one loop.
     #[arg(long, value_name = "N")]
     pub points_per_loop: Option<u32>,
-    /// The yarn file to write.
+    /// Make it move, for one cycle of two seconds: for a `.gltf`.
+    #[arg(long, value_enum)]
+    pub animate: Option<Animate>,
+    /// The yarn file to write: `.bcc`, or `.gltf`, in which yarns are lines.
     #[arg(short, long)]
     pub output: PathBuf,
+}
+
+/// Motions of generated fabric.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Animate {
+    /// Pulled up and down, by a morph target.
+    Stretch,
+    /// Waves, by two morph targets.
+    Wave,
+    /// Its upper half bends over, by a skin of two joints.
+    Bend,
 }
 
 /// `worsted info`.
 #[derive(Debug, ClapArgs)]
 pub struct Info {
-    /// A yarn file (`.bcc`, `.obj`).
+    /// A yarn file (`.bcc`, `.obj`, `.gltf`, `.glb`).
     pub yarn: PathBuf,
 }
 

@@ -26,7 +26,7 @@ enum Format {
 pub fn run(args: &Export, common: &Common) -> Result<(), Error> {
     let format = format(&args.output)?;
     let settings = realise_settings(args.chord_error)?;
-    let scene = load_scene(&args.scene, None)?;
+    let scene = load_scene(&args.scene, &args.time, None)?;
     report_notes(&scene, common);
     let bar = task_bar(common, "realising fibers", None);
     let fibers = realise(&scene, &settings).map_err(|e| Error::Arguments(e.to_string()))?;

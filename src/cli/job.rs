@@ -1,6 +1,7 @@
 //! What was typed, resolved into what will run.
 
-use super::args::{Common, Render, SceneArgs};
+use super::args::{Common, Render, SceneArgs, TimeArgs, ViewArgs};
+use super::bench_args::CacheArgs;
 use super::budget::BudgetJob;
 use super::output::Output;
 use crate::cli::say::tell;
@@ -10,6 +11,7 @@ use crate::io::cache::Cache;
 use crate::io::kept::Kept;
 use crate::io::picture::{MAX_PIXELS, MAX_SIDE};
 use crate::io::whole::check_target;
+use crate::motion::mover::Movers;
 use crate::reference::fibers::RealiseSettings;
 use crate::scene::Scene;
 use std::path::{Path, PathBuf};
@@ -58,51 +60,85 @@ impl RenderJob {
             statistics: args.stats.is_some() || args.explain,
             profile: args.profile,
         };
-        let sets = assignments(&args.scene, args.view.camera.as_deref())?;
+        let sets = assignments(&args.scene, args.time.frame, args.view.camera.as_deref())?;
         let scene = Scene::load(&args.scene.path, &sets)?;
         check_tables(&scene)?;
+        let budget = BudgetJob::new(&args.budget)?;
+        if budget.is_some() && scene.file.animation.frame.is_some() {
+            let message =
+                "--max-error, --max-ms: expected a model at rest, which was measured, found animation.frame";
+            return Err(Error::Arguments(message.to_owned()));
+        }
         Ok(Self {
             asked_for: None,
             scene,
             path: args.scene.path.clone(),
             sets,
-            budget: BudgetJob::new(&args.budget)?,
+            budget,
             request,
             outputs,
             repeat: args.repeat,
             stats: args.stats.clone(),
             explain: args.explain,
-            kept: kept(args),
+            kept: kept(args.no_cache, &args.budget.cache),
             common: common.clone(),
         })
     }
 }
 
 /// Where tables and pipelines are kept: nowhere for a user without a home, who named no folder.
-fn kept(args: &Render) -> Kept {
-    if args.no_cache {
+pub(super) fn kept(no_cache: bool, cache: &CacheArgs) -> Kept {
+    if no_cache {
         return Kept::NOTHING;
     }
-    Cache::new(args.budget.cache.folder.as_deref()).map(Kept::within).unwrap_or_else(|why| {
+    Cache::new(cache.folder.as_deref()).map(Kept::within).unwrap_or_else(|why| {
         tracing::debug!("{why}");
         Kept::NOTHING
     })
 }
 
-/// The scene with what `--camera`, `--seed` and `--set` set, in an order that gives `--set` the last word.
+/// The scene with what `--motion`, `--frame`, `--camera`, `--seed` and `--set` set, in an order that gives `--set` the
+/// last word. Fabrics are where the frame has them; a camera for pictures of `size` is fitted as for any frame.
 ///
 /// # Errors
-/// A camera that makes no sense, a scene that cannot be had.
-pub(super) fn load_scene(args: &SceneArgs, camera: Option<&str>) -> Result<Scene, Error> {
-    Ok(Scene::load(&args.path, &assignments(args, camera)?)?)
+/// A camera that makes no sense, a scene that cannot be had, a frame that cannot be read.
+pub(super) fn load_scene(
+    args: &SceneArgs,
+    time: &TimeArgs,
+    view: Option<(&ViewArgs, [u32; 2])>,
+) -> Result<Scene, Error> {
+    let camera = view.and_then(|(view, _)| view.camera.as_deref());
+    let mut scene = Scene::load(&args.path, &assignments(args, time.frame, camera)?)?;
+    if let Some(frame) = scene.file.animation.frame {
+        let mut movers = Movers::open(&scene)?;
+        if let Some((_, size)) = view {
+            movers.fix_camera(&mut scene, size)?;
+        }
+        movers.put(&mut scene, frame)?;
+    }
+    Ok(scene)
 }
 
-/// What `--camera`, `--seed` and `--set` set.
-fn assignments(args: &SceneArgs, camera: Option<&str>) -> Result<Vec<String>, Error> {
+/// What `--motion`, `--frame`, `--camera`, `--seed` and `--set` set.
+pub(super) fn assignments(
+    args: &SceneArgs,
+    frame: Option<f64>,
+    camera: Option<&str>,
+) -> Result<Vec<String>, Error> {
     let mut assignments = camera.map(camera_assignments).transpose()?.unwrap_or_default();
     assignments.extend(args.seed.map(|seed| format!("seed={seed}")));
+    assignments.extend(frame.map(|frame| format!("animation.frame={frame:?}")));
+    assignments.extend(args.motion.as_deref().map(motion_assignment).transpose()?);
     assignments.extend(args.set.iter().cloned());
     Ok(assignments)
+}
+
+/// `--motion FILE` as an assignment, whose path is not relative to the scene file.
+fn motion_assignment(path: &Path) -> Result<String, Error> {
+    let wrong = |why: String| Error::Arguments(format!("--motion {}: {why}", path.display()));
+    let whole = std::path::absolute(path).map_err(|e| wrong(e.to_string()))?;
+    let text = whole.to_str().ok_or_else(|| wrong("expected a UTF-8 path".into()))?;
+    Ok(format!("fabric.motion={}", toml::Value::String(text.to_owned())))
 }
 
 /// Says what a user should know of how the yarn was read.

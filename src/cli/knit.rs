@@ -1,11 +1,13 @@
 //! `worsted knit`.
 
-use super::args::{Knit, Knitting, Pattern, Stockinette, Tube};
+use super::args::{Animate, Knit, Knitting, Pattern, Stockinette, Tube};
 use crate::error::Error;
 use crate::io::bcc::write_bcc;
 use crate::io::curves::CurveSet;
+use crate::io::gltf_write::write_gltf;
 use crate::io::whole::check_target;
 use crate::knit::error::KnitError;
+use crate::knit::motion::{Dance, written};
 use crate::knit::params::KnitParams;
 use crate::knit::stockinette::stockinette;
 use crate::knit::tube::tube;
@@ -41,13 +43,28 @@ fn params(courses: u32, wales: u32, args: &Knitting) -> KnitParams {
 
 /// Writes what `make` knits, if it can be written at all.
 fn write(args: &Knitting, make: impl FnOnce() -> Result<CurveSet, KnitError>) -> Result<(), Error> {
-    if args.output.extension().is_none_or(|e| !e.eq_ignore_ascii_case("bcc")) {
-        let message = format!("-o {}: expected a name ending in .bcc", args.output.display());
-        return Err(Error::Arguments(message));
-    }
+    let extension = args.output.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    let wrong = |expected: &str| {
+        Error::Arguments(format!("-o {}: expected a name ending in {expected}", args.output.display()))
+    };
+    let is_gltf = match extension.as_deref() {
+        Some("gltf") => true,
+        Some("bcc") if args.animate.is_some() => return Err(wrong(".gltf, which can move")),
+        Some("bcc") => false,
+        _ => return Err(wrong(".bcc or .gltf")),
+    };
     check_target(&args.output)?;
-    write_bcc(&args.output, &make()?)?;
-    Ok(())
+    let set = make()?;
+    if !is_gltf {
+        return Ok(write_bcc(&args.output, &set)?);
+    }
+    let dance = args.animate.map(|animate| match animate {
+        Animate::Stretch => Dance::Stretch,
+        Animate::Wave => Dance::Wave,
+        Animate::Bend => Dance::Bend,
+    });
+    let moves = dance.map(|dance| written(&set, dance));
+    Ok(write_gltf(&args.output, &set, moves.as_ref())?)
 }
 
 /// The radius asked for, or that of the default yarn.

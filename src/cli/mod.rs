@@ -6,11 +6,15 @@ pub mod bench_args;
 mod budget;
 mod compare;
 mod doctor;
+mod encode;
 mod export;
 mod info;
 pub mod job;
 mod knit;
 mod output;
+mod play;
+pub mod play_args;
+mod play_record;
 mod probe;
 mod progress;
 mod reference;
@@ -36,6 +40,7 @@ pub fn run(args: &Args) -> Result<(), Error> {
 fn run_command(args: &Args) -> Result<(), Error> {
     match &args.command {
         Command::Render(render) => render::run(job::RenderJob::new(render, &args.common)?),
+        Command::Play(play) => play::run(play::PlayJob::new(play, &args.common)?),
         Command::Bench(bench) => bench::run(bench, &args.common),
         Command::Reference(reference) => {
             reference::run(&reference::ReferenceJob::new(reference, &args.common)?)

@@ -53,7 +53,7 @@ impl ReferenceJob {
         in_range("--own-fiber-diameters", args.own_fiber_diameters, 0.0, 1e3)?;
         let size = parse_size(&args.view.size)?;
         Ok(Self {
-            scene: load_scene(&args.scene, args.view.camera.as_deref())?,
+            scene: load_scene(&args.scene, &args.time, Some((&args.view, size)))?,
             size,
             samples: args.spp,
             realise,

@@ -9,7 +9,9 @@ use crate::cli::say::say;
 use crate::error::Error;
 use crate::frame::stats::Stats;
 use crate::frame::{Picture, Renderer};
+use crate::motion::mover::Movers;
 use crate::vulkan::Device;
+use std::sync::Arc;
 
 /// Draws, writes, reports.
 ///
@@ -41,8 +43,8 @@ pub fn run(mut job: RenderJob) -> Result<(), Error> {
     kept
 }
 
-fn draw(job: &RenderJob, device: &std::sync::Arc<Device>) -> Result<(Picture, Stats), Error> {
-    let mut renderer = Renderer::keeping(device, job.scene.clone(), job.request, &job.kept)?;
+fn draw(job: &RenderJob, device: &Arc<Device>) -> Result<(Picture, Stats), Error> {
+    let mut renderer = renderer(job, device)?;
     let bar = share_bar(&job.common);
     let pictures = f64::from(job.repeat);
     let mut picture = None;
@@ -60,6 +62,22 @@ fn draw(job: &RenderJob, device: &std::sync::Arc<Device>) -> Result<(Picture, St
     stats.set_gpu_bytes(device);
     stats.host_peak_bytes = host_peak_bytes();
     Ok((picture, stats))
+}
+
+/// The job's renderer, with the fabrics where the frame that is asked for has them.
+fn renderer(job: &RenderJob, device: &Arc<Device>) -> Result<Renderer, Error> {
+    let Some(frame) = job.scene.file.animation.frame else {
+        return Ok(Renderer::keeping(device, job.scene.clone(), job.request, &job.kept)?);
+    };
+    let mut scene = job.scene.clone();
+    let mut movers = Movers::open(&scene)?;
+    movers.fix_camera(&mut scene, job.request.size)?;
+    let mut renderer = Renderer::keeping(device, scene, job.request, &job.kept)?;
+    let mut poser = renderer.poser(movers, std::iter::once(frame));
+    let posed = poser.next_frame()?;
+    let mut posed = posed.ok_or_else(|| Error::Failed(format!("expected frame {frame}, found none")))?;
+    renderer.pose(&mut posed)?;
+    Ok(renderer)
 }
 
 fn explain(stats: &Stats) {

@@ -29,12 +29,21 @@ use std::sync::Arc;
 /// their digits.
 pub fn control_points(fabric: &Fabric, origin_mm: DVec3) -> Vec<ControlPoint> {
     let strands = &fabric.strands;
-    let tangents = strands.knot_tangents();
+    packed_points(&strands.points, &strands.normals, &strands.knot_tangents(), origin_mm)
+}
+
+/// The same of points (mm) with unit normals and tangents.
+pub fn packed_points(
+    points: &[DVec3],
+    normals: &[DVec3],
+    tangents: &[DVec3],
+    origin_mm: DVec3,
+) -> Vec<ControlPoint> {
     let point = |((position, normal), tangent): ((&DVec3, &DVec3), &DVec3)| ControlPoint {
         position: (*position - origin_mm).as_vec3().to_array(),
         normal_octahedral: octahedral_from_normal(*normal, *tangent),
     };
-    strands.points.par_iter().zip(&strands.normals).zip(&tangents).map(point).collect()
+    points.par_iter().zip(normals).zip(tangents).map(point).collect()
 }
 
 /// The fibers of a cross-section.

@@ -33,7 +33,8 @@ const HEADER_BYTES: usize = 64;
 /// Offsets of the two u64 counts in the header.
 const CURVES_AT: u64 = 8;
 const POINTS_AT: u64 = 16;
-const POINT_BYTES: usize = 12;
+/// Three little-endian f32.
+pub(super) const POINT_BYTES: usize = 12;
 const COUNT_BYTES: usize = 4;
 /// Four-byte integers, four-byte floats: the only widths seen in files and the only ones read.
 const WIDTHS: u8 = 0x44;
@@ -79,7 +80,7 @@ pub fn parse_bcc(file: &Path, bytes: &[u8]) -> Result<Loaded, FileError> {
         ));
     }
     let curves = CurveSet { basis: header.basis, up_axis: header.up_axis, curves };
-    Ok(Loaded { curves, repairs: Vec::new(), notes, format: "BCC", kept_points: None })
+    Ok(Loaded { notes, ..Loaded::of_curves(curves, "BCC") })
 }
 
 /// What the header claims, once it is known to fit the file.
@@ -195,7 +196,8 @@ impl Reader<'_> {
     }
 }
 
-fn point(bytes: &[u8]) -> DVec3 {
+/// The point that [`POINT_BYTES`] bytes hold.
+pub(super) fn point(bytes: &[u8]) -> DVec3 {
     let axis = |i: usize| {
         let mut word = [0; 4];
         word.copy_from_slice(&bytes[4 * i..4 * i + 4]);

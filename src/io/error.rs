@@ -14,6 +14,10 @@ pub enum Place {
     Line(u64),
     /// A curve, counted from 0.
     Curve(usize),
+    /// A frame of a motion, counted from 0.
+    Frame(u64),
+    /// A numbered part of a document, by its kind: `accessor`, `mesh`.
+    Item(&'static str, usize),
 }
 
 /// Bad input or a failed read or write, as one line: `FILE: PLACE: MESSAGE`.
@@ -47,6 +51,8 @@ impl fmt::Display for FileError {
             Place::Byte(offset) => write!(f, "byte {offset}: ")?,
             Place::Line(line) => write!(f, "line {line}: ")?,
             Place::Curve(curve) => write!(f, "curve {curve}: ")?,
+            Place::Frame(frame) => write!(f, "frame {frame}: ")?,
+            Place::Item(kind, index) => write!(f, "{kind} {index}: ")?,
         }
         f.write_str(&plain(&self.message))
     }

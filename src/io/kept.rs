@@ -23,6 +23,11 @@ impl Key {
         Self(blake3::Hasher::new()).bytes(kind.as_bytes()).bytes(makers.as_bytes())
     }
 
+    /// The hash in hexadecimal digits.
+    pub fn hex(&self) -> String {
+        self.0.finalize().to_hex().to_string()
+    }
+
     /// The key with more that decides. Numbers are shown with all their digits.
     #[must_use]
     pub fn shown(self, value: &dyn fmt::Debug) -> Self {
@@ -90,7 +95,7 @@ impl Kept {
 }
 
 fn name(key: &Key) -> String {
-    key.0.finalize().to_hex().to_string()
+    key.hex()
 }
 
 /// Of what is kept and of what it is kept under: a file under another's name is not taken for it.

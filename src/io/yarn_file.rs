@@ -7,8 +7,9 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::bcc::{BCC_MAGIC, parse_bcc};
-use super::curves::CurveSet;
+use super::curves::{CurveLayout, CurveSet};
 use super::error::{FileError, Place};
+use super::gltf::{GLB_MAGIC, parse_gltf};
 use super::obj::parse_obj;
 use super::repair::{Repair, repair_curves};
 
@@ -21,11 +22,34 @@ pub struct Loaded {
     pub repairs: Vec<Repair>,
     /// Oddities that needed no change (bytes after the data, an unknown up axis), one line each.
     pub notes: Vec<String>,
-    /// The format's short name: `BCC` or `OBJ`.
+    /// The format's short name: `BCC`, `OBJ` or `glTF`.
     pub format: &'static str,
     /// Where repairs dropped points: for each point of `curves`, in order, its index among all points
     /// of the file, so that a frame sequence in the file's order still fits. `None` = all kept.
     pub kept_points: Option<Vec<usize>>,
+    /// The curves of the file as they were before repairs.
+    pub layout: CurveLayout,
+    /// Whether the file says how they move.
+    pub moves: bool,
+    /// Millimetres in its unit, where the format says so.
+    pub mm_per_unit: Option<f64>,
+}
+
+impl Loaded {
+    /// Curves that need neither repairs nor notes, from what `format` names.
+    pub fn of_curves(curves: CurveSet, format: &'static str) -> Self {
+        let layout = CurveLayout::of(&curves);
+        Self {
+            curves,
+            repairs: Vec::new(),
+            notes: Vec::new(),
+            format,
+            kept_points: None,
+            layout,
+            moves: false,
+            mm_per_unit: None,
+        }
+    }
 }
 
 /// Largest file that is read, in bytes: a yarn file beyond it is surely something else.
@@ -34,7 +58,7 @@ const MAX_FILE_BYTES: u64 = 4 << 30;
 /// Largest coordinate magnitude, in file units: its square still fits the device's f32.
 pub const MAX_COORDINATE: f64 = 1e15;
 
-/// Reads a yarn file, BCC by its first bytes or OBJ by its extension, and repairs it.
+/// Reads a yarn file, BCC and binary glTF by their first bytes, OBJ and glTF by their extension, and repairs it.
 ///
 /// # Errors
 /// One line with the place at fault: an unreadable file, an unknown format, anything the format's
@@ -48,19 +72,7 @@ pub fn load_yarn_file(path: &Path) -> Result<Loaded, FileError> {
 /// # Errors
 /// As [`load_yarn_file`].
 pub fn parse_yarn_file(file: &Path, bytes: &[u8]) -> Result<Loaded, FileError> {
-    let extension = file.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-    let mut loaded = match extension.as_str() {
-        _ if bytes.starts_with(&BCC_MAGIC) => parse_bcc(file, bytes)?,
-        "bcc" => parse_bcc(file, bytes)?,
-        "obj" => parse_obj(file, bytes)?,
-        _ => {
-            let message = format!(
-                "expected a BCC file (first bytes \"BCC\") or a name ending in .obj, found extension \"{}\"",
-                excerpt(extension.as_bytes())
-            );
-            return Err(FileError::new(file, Place::File, message));
-        }
-    };
+    let mut loaded = parse_unrepaired(file, bytes)?;
     let found = loaded.curves.curves.len();
     let repaired = repair_curves(loaded.curves);
     if repaired.curves.curves.is_empty() {
@@ -73,6 +85,32 @@ pub fn parse_yarn_file(file: &Path, bytes: &[u8]) -> Result<Loaded, FileError> {
     loaded.repairs = repaired.repairs;
     loaded.kept_points = repaired.kept_points;
     Ok(loaded)
+}
+
+/// A yarn file as it stands: all points of all curves, in the file's order.
+///
+/// # Errors
+/// As [`load_yarn_file`], but for curves that are too short.
+pub fn read_unrepaired(path: &Path) -> Result<Loaded, FileError> {
+    parse_unrepaired(path, &read_file_bytes(path)?)
+}
+
+fn parse_unrepaired(file: &Path, bytes: &[u8]) -> Result<Loaded, FileError> {
+    let extension = file.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+    match extension.as_str() {
+        _ if bytes.starts_with(&BCC_MAGIC) => parse_bcc(file, bytes),
+        "bcc" => parse_bcc(file, bytes),
+        _ if bytes.starts_with(&GLB_MAGIC) => parse_gltf(file, bytes),
+        "gltf" | "glb" => parse_gltf(file, bytes),
+        "obj" => parse_obj(file, bytes),
+        _ => {
+            let message = format!(
+                "expected a BCC file (first bytes \"BCC\") or a name ending in .obj, .gltf or .glb, found \"{}\"",
+                excerpt(extension.as_bytes())
+            );
+            Err(FileError::new(file, Place::File, message))
+        }
+    }
 }
 
 /// The bytes of a regular file of at most 4 GiB; pipes and devices, which may never end, are refused.

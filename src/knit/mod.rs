@@ -6,6 +6,7 @@ pub mod error;
 mod fine;
 pub mod interlock;
 pub mod layout;
+pub mod motion;
 pub mod params;
 mod relax;
 mod selvedge;

@@ -15,6 +15,8 @@ pub struct Pose {
     pub points: Vec<DVec3>,
     /// Unit normals of knots; arbitrary at points that are no knot.
     pub normals: Vec<DVec3>,
+    /// Unit tangents of knots; +X at points that are no knot.
+    pub tangents: Vec<DVec3>,
     /// How the cloth around each point has turned since rest.
     pub rotations: Vec<DQuat>,
 }
@@ -78,7 +80,7 @@ impl RestPose {
             moved_normal(rotations[place] * self.tangents[place], tangents[place], turned)
         };
         let normals = (0..points.len()).map(normal).collect();
-        Some(Pose { points, normals, rotations })
+        Some(Pose { points, normals, tangents, rotations })
     }
 }
 

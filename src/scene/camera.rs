@@ -36,7 +36,7 @@ impl Camera {
         points: impl Iterator<Item = DVec3> + Clone,
         radius_mm: f64,
     ) -> Self {
-        let pitch_deg = table.pitch_deg.unwrap_or_else(|| if lies_flat(points.clone()) { 90.0 } else { 0.0 });
+        let pitch_deg = pitch_deg(table, points.clone());
         let (yaw, pitch) = (table.yaw_deg.to_radians(), pitch_deg.to_radians());
         let world_from_view = DMat3::from_rotation_y(yaw) * DMat3::from_rotation_x(-pitch);
         let tan_y = (0.5 * table.fov_y_deg.to_radians()).tan();
@@ -56,6 +56,24 @@ impl Camera {
             world_from_view,
             half_extent,
             near_mm: NEAR_SHARE * distance,
+        }
+    }
+
+    /// The table of the same camera with nothing left to be fitted, so that it stays where it is when the cloth moves.
+    pub fn fitted(
+        table: &CameraTable,
+        size: [u32; 2],
+        origin_mm: DVec3,
+        points: impl Iterator<Item = DVec3> + Clone,
+        radius_mm: f64,
+    ) -> CameraTable {
+        let camera = Self::new(table, size, origin_mm, points.clone(), radius_mm);
+        CameraTable {
+            pitch_deg: Some(pitch_deg(table, points)),
+            distance_mm: Some(camera.near_mm / NEAR_SHARE),
+            target_mm: Some((camera.target_world + origin_mm).to_array()),
+            fit: false,
+            ..table.clone()
         }
     }
 
@@ -102,6 +120,11 @@ impl Camera {
             plane(DVec3::new(0.0, 0.0, -1.0), -self.near_mm),
         ]
     }
+}
+
+/// The pitch that a table states, or the one that suits the points.
+fn pitch_deg(table: &CameraTable, points: impl Iterator<Item = DVec3>) -> f64 {
+    table.pitch_deg.unwrap_or_else(|| if lies_flat(points) { 90.0 } else { 0.0 })
 }
 
 /// Whether the points lie like a cloth on the ground, which a level camera would see edge on.

@@ -3,6 +3,7 @@
 use super::SceneError;
 use super::fiber_table::resolve_fiber;
 use super::file::{FabricTable, SceneFile};
+use super::motion::{Motion, world_from_file};
 use super::yarn_table::resolve_yarn;
 use crate::bsdf::params::FiberParams;
 #[cfg(test)]
@@ -34,6 +35,8 @@ pub struct Fabric {
     pub strands: Strands,
     /// Millimetres per unit of the file.
     pub mm_per_unit: f64,
+    /// How it moves, if it does.
+    pub motion: Option<Motion>,
     /// What a user should know of how the file was read, one line each.
     pub notes: Vec<String>,
     /// How long it took to make.
@@ -71,6 +74,11 @@ impl Fabric {
         let loaded = load_yarn_file(&folder.join(&table.model))?;
         let read = started.elapsed();
         let mut fabric = Self::from_loaded(file, table, loaded, scene)?;
+        if let Some(motion) = &mut fabric.motion {
+            motion.path = folder.join(&motion.path);
+            // What cannot be opened is said now, not after all has been baked.
+            motion.open()?;
+        }
         fabric.load.read = read;
         Ok(fabric)
     }
@@ -106,7 +114,11 @@ impl Fabric {
         let strands = strands(&curves, loaded.curves.basis, &yarn, file.seed);
         check_turns(&strands).map_err(|message| value(format!("{}: {message}", table.model)))?;
         let load = LoadTimes { unit, yarns: started.elapsed(), ..Default::default() };
-        Ok(Self { name: table.model.clone(), yarn, fiber, strands, mm_per_unit, notes, load })
+        // A model that says itself how it moves does so unless it is told otherwise.
+        let motion = table.motion.as_deref().or(loaded.moves.then_some(table.model.as_str()));
+        let per_second = file.animation.frames_per_second;
+        let motion = motion.map(|path| Motion::new(Path::new(path), &loaded, mm_per_unit, per_second));
+        Ok(Self { name: table.model.clone(), yarn, fiber, strands, mm_per_unit, motion, notes, load })
     }
 
     /// Positions that the picture must hold: the Bezier control points of every piece, in mm.
@@ -128,6 +140,7 @@ impl Fabric {
             fiber,
             strands,
             mm_per_unit: 1.0,
+            motion: None,
             notes: Vec::new(),
             load: LoadTimes::default(),
         }
@@ -164,6 +177,10 @@ fn check_turns(strands: &Strands) -> Result<(), String> {
 /// the overridden one: sweeping a radius must not rescale the model.
 fn matched_scale(loaded: &Loaded, preset: &YarnParams, notes: &mut Vec<String>) -> f64 {
     let outer_mm = preset.outer_radius_mm();
+    if let Some(scale) = loaded.mm_per_unit {
+        notes.push(format!("no mm_per_unit: {} is in units of {scale} mm", loaded.format));
+        return scale;
+    }
     match estimate_contact_radius(&loaded.curves.curves, loaded.curves.basis) {
         Some(radius) => {
             let scale = outer_mm / radius;
@@ -183,13 +200,8 @@ fn matched_scale(loaded: &Loaded, preset: &YarnParams, notes: &mut Vec<String>) 
 /// The curves in mm with Y up.
 fn world_curves(loaded: &Loaded, mm_per_unit: f64) -> Vec<Curve> {
     let up = loaded.curves.up_axis.unwrap_or(UpAxis::Y);
-    let turn = |p: DVec3| match up {
-        UpAxis::X => DVec3::new(-p.y, p.x, p.z),
-        UpAxis::Y => p,
-        UpAxis::Z => DVec3::new(p.x, p.z, -p.y),
-    };
     let place = |curve: &Curve| Curve {
-        points: curve.points.iter().map(|&p| turn(p) * mm_per_unit).collect(),
+        points: curve.points.iter().map(|&p| world_from_file(up, p) * mm_per_unit).collect(),
         closed: curve.closed,
     };
     loaded.curves.curves.par_iter().map(place).collect()

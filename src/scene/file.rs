@@ -1,5 +1,6 @@
 //! The scene file's keys and their defaults. Every key has one, so a bare yarn file is a scene.
 
+use super::animation::AnimationTable;
 use super::light::{AmbientTable, LightTable};
 use super::shadow::ShadowTable;
 use crate::bsdf::khungurn::tabulated::DEFAULT_ENTRIES;
@@ -34,6 +35,8 @@ pub struct SceneFile {
     pub occlusion: OcclusionTable,
     /// What is traded for time.
     pub quality: QualityTable,
+    /// Which frames of moving fabrics are shown, and how fast.
+    pub animation: AnimationTable,
     /// From radiance to the displayed picture.
     pub display: DisplayTable,
     /// Views that show something else than light.
@@ -48,6 +51,8 @@ pub struct FabricTable {
     pub model: String,
     /// Millimetres per unit of the file; estimated from the yarns' contact when absent.
     pub mm_per_unit: Option<f64>,
+    /// Frames of its motion, relative to the scene file: raw (`frames.f32`) or numbered files (`cloth.%04d.bcc`).
+    pub motion: Option<String>,
     /// Yarn parameters that differ from the scene's.
     pub yarn: toml::Table,
     /// Parameters of the fibers' look that differ from the scene's.

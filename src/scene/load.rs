@@ -28,6 +28,7 @@ impl SceneFile {
         let (rgb, range) = (KeyError::rgb, KeyError::range);
         check_lights(&self.light())?;
         self.ambient.check()?;
+        self.animation.check()?;
         for fabric in &self.fabric {
             range("fabric.mm_per_unit", fabric.mm_per_unit.unwrap_or(1.0), 1e-9, 1e9)?;
         }
@@ -119,6 +120,9 @@ impl Scene {
             .iter()
             .map(|table| Fabric::load(&file, table, &folder, &name))
             .collect::<Result<Vec<_>, _>>()?;
+        if file.animation.frame.is_some() && fabrics.iter().all(|fabric| fabric.motion.is_none()) {
+            return Err(value("animation.frame: expected a fabric with a motion, found none".into()));
+        }
         let origin_mm = origin(&file.camera, &fabrics);
         let environment = load_environment(&file.ambient, &folder)?;
         Ok(Self { file, fabrics, origin_mm, environment })
@@ -144,8 +148,7 @@ impl Scene {
             message: error.to_string(),
         };
         file.check().map_err(value)?;
-        let loaded =
-            Loaded { curves, repairs: Vec::new(), notes: Vec::new(), format: "curves", kept_points: None };
+        let loaded = Loaded::of_curves(curves, "curves");
         let table = FabricTable { model: name.to_owned(), mm_per_unit: Some(1.0), ..Default::default() };
         let fabric = Fabric::from_loaded(&file, &table, loaded, name)?;
         file.fabric = vec![table];

@@ -1,5 +1,6 @@
 //! What a scene file says, and the fabrics, camera and features that follow from it.
 
+pub mod animation;
 pub mod camera;
 pub mod fabric;
 pub mod features;
@@ -9,6 +10,7 @@ pub mod keys;
 pub mod light;
 pub mod light_reach;
 pub mod load;
+pub mod motion;
 pub mod needs;
 pub mod overrides;
 pub mod shadow;

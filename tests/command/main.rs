@@ -7,6 +7,7 @@ mod compare;
 mod errors;
 mod export;
 mod pipes;
+mod play;
 mod probe;
 mod process;
 mod reference;

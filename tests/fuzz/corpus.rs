@@ -4,8 +4,10 @@ use glam::DVec3;
 use std::path::Path;
 use worsted::io::bcc::write_bcc;
 use worsted::io::curves::{Basis, Curve, CurveSet, UpAxis};
+use worsted::io::gltf_write::write_gltf;
 use worsted::io::measured::MeasuredImage;
 use worsted::io::picture::{DisplayImage, LinearImage, write_exr, write_png};
+use worsted::knit::motion::{self, Dance};
 use worsted::probe::FUNCTIONS;
 use worsted::reference::checkpoint;
 use worsted::reference::rendering::Rendering;
@@ -57,6 +59,32 @@ const SCENE: &str = "seed = 3\n[fabric]\nmodel = \"yarn.bcc\"\nmm_per_unit = 1\n
     [shading]\nmodel = \"physical\"\nextinction_scale = 1\n[shadow]\nmap = true\n[occlusion]\nmode = \"texture\"\n[quality]\n\
     self_shadow_texels = 64\nscattering_entries = 32\n[display]\ntone = \"filmic\"\nbackground = [0, 0, 0]\n[debug]\nview = \"ply\"\n";
 
+/// An indexed triangle whose edges are taken, in a scene of two nodes.
+const TRIANGLE: &str = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"children":[1],"rotation":[0,0,1,0]},
+    {"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,1,2,3,1]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
+    "buffers":[{"byteLength":42,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA"}],
+    "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+    {"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}]}"#;
+
+/// A glTF that moves.
+fn gltf(dance: Dance) -> Vec<u8> {
+    let mut set = curves(Basis::CatmullRom);
+    set.up_axis = None;
+    written(|path| write_gltf(path, &set, Some(&motion::written(&set, dance))).unwrap())
+}
+
+/// The triangle as a binary file.
+fn glb() -> Vec<u8> {
+    let chunk = TRIANGLE.len().next_multiple_of(4);
+    let length = |bytes: usize| (bytes as u32).to_le_bytes();
+    let head =
+        [b"glTF".as_slice(), &2u32.to_le_bytes(), &length(20 + chunk), &length(chunk), b"JSON"].concat();
+    let mut file = [&head, TRIANGLE.as_bytes()].concat();
+    file.resize(20 + chunk, b' ');
+    file
+}
+
 /// Files of a reader.
 pub fn of(reader: &str) -> Vec<Vec<u8>> {
     let hdr = |width: usize, height: usize| {
@@ -68,6 +96,11 @@ pub fn of(reader: &str) -> Vec<Vec<u8>> {
             .map(|basis| written(|path| write_bcc(path, &curves(basis)).unwrap()))
             .into(),
         "obj" => vec![OBJ.into(), b"v 0 0 0\nv 1e3 -2.5e-1 0\nv 0 0 1\nl 1 2 3 1\n".into()],
+        "gltf" => vec![gltf(Dance::Wave), gltf(Dance::Bend), glb(), TRIANGLE.into()],
+        "frames" => {
+            let point = |i: u32| (0..3).flat_map(move |axis| (0.25 * (i + axis) as f32).to_le_bytes());
+            vec![(0..20).flat_map(point).collect(), (0..10).flat_map(point).collect()]
+        }
         "exr" => vec![
             written(|path| measured().write(path).unwrap()),
             written(|path| write_exr(path, &linear(9, 7)).unwrap()),

@@ -50,8 +50,7 @@ pub fn swatch(yarn_radius_mm: f64, wales: u32, courses: u32) -> KnitParams {
 /// Yarn parameters out of range.
 pub fn scene_of(file: SceneFile, name: &str, curves: Vec<Curve>) -> Result<Scene, Error> {
     let curves = CurveSet { basis: Basis::CatmullRom, up_axis: Some(UpAxis::Y), curves };
-    let loaded =
-        Loaded { curves, repairs: Vec::new(), notes: Vec::new(), format: "figure", kept_points: None };
+    let loaded = Loaded::of_curves(curves, "figure");
     let table = FabricTable { mm_per_unit: Some(1.0), ..Default::default() };
     let fabric = Fabric::from_loaded(&file, &table, loaded, name)?;
     Ok(Scene { file, fabrics: vec![fabric], origin_mm: DVec3::ZERO, environment: None })

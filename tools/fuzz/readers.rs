@@ -3,9 +3,11 @@
 
 use std::path::{Path, PathBuf};
 use worsted::io::environment::read_environment;
+use worsted::io::frames::FrameSource;
+use worsted::io::gltf::Model;
 use worsted::io::measured::MeasuredImage;
 use worsted::io::picture::read_png;
-use worsted::io::yarn_file::parse_yarn_file;
+use worsted::io::yarn_file::{load_yarn_file, parse_yarn_file};
 use worsted::probe::{FUNCTIONS, probe};
 use worsted::reference::checkpoint;
 use worsted::scene::Scene;
@@ -14,9 +16,11 @@ use worsted::scene::Scene;
 pub type Read = fn(&[u8], &Scratch) -> Result<(), String>;
 
 /// Every reader by its name.
-pub const READERS: [(&str, Read); 10] = [
+pub const READERS: [(&str, Read); 12] = [
     ("bcc", bcc),
     ("obj", obj),
+    ("gltf", gltf),
+    ("frames", frames),
     ("exr", exr),
     ("png", png),
     ("environment_exr", |bytes, scratch| environment(bytes, scratch, "exr")),
@@ -66,6 +70,43 @@ fn bcc(bytes: &[u8], _: &Scratch) -> Result<(), String> {
 
 fn obj(bytes: &[u8], _: &Scratch) -> Result<(), String> {
     yarn("fuzzed.obj", bytes)
+}
+
+/// As a model, and at some times of its motion.
+fn gltf(bytes: &[u8], _: &Scratch) -> Result<(), String> {
+    yarn("fuzzed.gltf", bytes)?;
+    let model = match Model::new(Path::new("fuzzed.gltf"), bytes) {
+        Err(error) => return one_line(&error),
+        Ok(model) => model,
+    };
+    let count: usize = model.curves().map(|(points, _)| points).sum();
+    for share in [0.0, 0.3, 1.0, 2.0] {
+        match model.points(model.duration().map(|seconds| share * seconds)) {
+            Err(error) => one_line(&error)?,
+            Ok(points) if points.len() == count && points.iter().all(|p| p.is_finite()) => {}
+            Ok(_) => return Err("points that cannot be drawn".to_owned()),
+        }
+    }
+    Ok(())
+}
+
+/// As the frames of the small yarn file.
+fn frames(bytes: &[u8], scratch: &Scratch) -> Result<(), String> {
+    let path = scratch.file("fuzzed.f32", bytes)?;
+    let model = load_yarn_file(&scratch.0.join("yarn.bcc")).map_err(|e| e.to_string())?;
+    let mut source = match FrameSource::open(&path, &model.layout, 24.0) {
+        Err(error) => return one_line(&error),
+        Ok(source) => source,
+    };
+    for frame in 0..=source.count() {
+        match source.read(frame) {
+            Err(error) => one_line(&error)?,
+            Ok(points)
+                if points.len() == model.layout.point_count() && points.iter().all(|p| p.is_finite()) => {}
+            Ok(_) => return Err("points that cannot be drawn".to_owned()),
+        }
+    }
+    Ok(())
 }
 
 fn exr(bytes: &[u8], scratch: &Scratch) -> Result<(), String> {

@@ -1,7 +1,10 @@
 //! Measures what level of detail and tables cost and save, and says whether their limits hold: `measure
-//! lod-error|lod-cost|dolly|turntable|tables|shadow-tables|shadow-cost|judge|budgets`. Exit codes are those of `worsted`;
+//! lod-error|lod-cost|dolly|turntable|tables|shadow-tables|shadow-cost|judge|budgets|motion|animation-cost|
+//! animation-memory`. Exit codes are those of `worsted`;
 //! 1 is a limit that does not hold.
 
+mod animation_cost;
+mod animation_memory;
 mod budget_scenes;
 mod budgets;
 mod cost;
@@ -11,6 +14,8 @@ mod lod_cost;
 mod lod_error;
 #[path = "../figures/looks.rs"]
 mod looks;
+mod motion;
+mod motion_sky;
 mod pictures;
 mod report;
 mod shadow_cost;
@@ -55,6 +60,12 @@ enum Command {
     ShadowTables(shadow_tables::Options),
     /// Error of the default settings against the traced reference, and what each approximation has to do with it.
     Judge(judge::Options),
+    /// Processor time of pictures of a frame against pictures at rest.
+    AnimationCost(animation_cost::Options),
+    /// Memory while many frames are played.
+    AnimationMemory(animation_memory::Options),
+    /// What motion adds to the turns of fibers about their yarns, and what skies that are not baked anew cost.
+    Motion(motion::Options),
     /// Whether `worsted render --max-error` and `--max-ms` keep their promise in scenes they were not fitted to.
     Budgets(budgets::Options),
 }
@@ -78,6 +89,9 @@ fn run(args: &Args) -> Result<(), Error> {
         Command::Tables => tables::run(),
         Command::ShadowCost(options) => on_device(args, |stage| shadow_cost::run(stage, options)),
         Command::Judge(options) => on_device(args, |stage| judge::run(stage, options)),
+        Command::AnimationCost(options) => on_device(args, |stage| animation_cost::run(stage, options)),
+        Command::AnimationMemory(options) => on_device(args, |stage| animation_memory::run(stage, options)),
+        Command::Motion(options) => on_device(args, |stage| motion::run(stage, options)),
         Command::Budgets(options) => on_device(args, |stage| budgets::run(stage, options)),
         Command::ShadowTables(options) => on_device(args, |stage| shadow_tables::run(stage, options)),
     }

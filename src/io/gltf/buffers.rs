@@ -1,0 +1,105 @@
+//! The document of a glTF, and the bytes that it speaks of.
+
+use super::{GLB_MAGIC, shortened};
+use crate::io::error::{FileError, Place};
+use crate::io::yarn_file::{excerpt, read_file_bytes};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use gltf::buffer::Source;
+use gltf::{Document, Gltf};
+use std::path::{Path, PathBuf};
+
+/// Bytes in front of the chunks of a GLB, its length at this place of them.
+const GLB_HEADER: usize = 12;
+const GLB_LENGTH_AT: usize = 8;
+
+/// What a file's accessors read.
+pub struct Buffers<'a> {
+    /// The file, for errors.
+    pub file: &'a Path,
+    /// One for each buffer, as long as the document says.
+    pub bytes: Vec<Vec<u8>>,
+}
+
+/// Reads the document, and the buffers in it and beside it.
+///
+/// # Errors
+/// What is no glTF 2.0; buffers that are missing or shorter than stated.
+pub fn read<'a>(file: &'a Path, bytes: &[u8]) -> Result<(Document, Buffers<'a>), FileError> {
+    check_glb(file, bytes)?;
+    let Gltf { document, blob } = Gltf::from_slice(bytes).map_err(|error| {
+        let place = match &error {
+            gltf::Error::Deserialize(error) if error.line() > 0 => Place::Line(error.line() as u64),
+            _ => Place::File,
+        };
+        FileError::new(file, place, format!("expected a glTF 2.0, found: {}", shortened(&error.to_string())))
+    })?;
+    let mut blob = blob;
+    let mut all = Vec::new();
+    for buffer in document.buffers() {
+        let error = |message: String| FileError::new(file, Place::Item("buffer", buffer.index()), message);
+        let bytes = match buffer.source() {
+            Source::Bin => {
+                blob.take().ok_or_else(|| error("expected bytes in the file, found none".into()))?
+            }
+            Source::Uri(uri) => match uri.strip_prefix("data:") {
+                Some(data) => decoded(data).map_err(error)?,
+                None => read_file_bytes(&beside(file, uri).map_err(error)?)?,
+            },
+        };
+        let (expected, found) = (buffer.length(), bytes.len());
+        if found < expected {
+            return Err(error(format!("expected {expected} bytes, found {found}")));
+        }
+        all.push(bytes);
+    }
+    Ok((document, Buffers { file, bytes: all }))
+}
+
+/// Whether the length that a GLB claims is that of a header and no more than there is, which its reader relies on.
+fn check_glb(file: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    if !bytes.starts_with(&GLB_MAGIC) {
+        return Ok(());
+    }
+    let claimed =
+        bytes.get(GLB_LENGTH_AT..GLB_HEADER).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
+    match claimed {
+        Some(claimed) if (GLB_HEADER..=bytes.len()).contains(&claimed) => Ok(()),
+        _ => {
+            let found =
+                claimed.map_or_else(|| "no length".to_owned(), |claimed| format!("a claim of {claimed}"));
+            let message =
+                format!("expected a length of {GLB_HEADER} to {} bytes, found {found}", bytes.len());
+            Err(FileError::new(file, Place::Byte(GLB_LENGTH_AT as u64), message))
+        }
+    }
+}
+
+fn decoded(data: &str) -> Result<Vec<u8>, String> {
+    let found = || excerpt(data.as_bytes());
+    let text = data.split_once(";base64,").map(|(_, text)| text);
+    let text = text.ok_or_else(|| format!("expected data in base64, found \"{}\"", found()))?;
+    STANDARD.decode(text).map_err(|e| format!("expected data in base64, found {}", shortened(&e.to_string())))
+}
+
+/// The file that a relative URI names.
+fn beside(file: &Path, uri: &str) -> Result<PathBuf, String> {
+    let wrong = || format!("expected a file beside this one, found \"{}\"", excerpt(uri.as_bytes()));
+    let mut path = Vec::new();
+    let mut bytes = uri.bytes();
+    while let Some(byte) = bytes.next() {
+        path.push(match byte {
+            b'%' => {
+                let digits = [bytes.next(), bytes.next()].map(|b| b.and_then(|b| char::from(b).to_digit(16)));
+                let [Some(high), Some(low)] = digits else { return Err(wrong()) };
+                (16 * high + low) as u8
+            }
+            _ => byte,
+        });
+    }
+    let path = String::from_utf8(path).map_err(|_| wrong())?;
+    if path.is_empty() || path.contains("://") || path.contains('\0') || Path::new(&path).is_absolute() {
+        return Err(wrong());
+    }
+    Ok(file.parent().unwrap_or(Path::new("")).join(path))
+}
