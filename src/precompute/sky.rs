@@ -27,8 +27,8 @@ struct Detail {
     part: f64,
 }
 
-/// As closely as so few directions are worth: of knit yarn of 64 points a loop the root mean square error is 0.067, 0.076
-/// from every point, and 0.088 with places twice as far apart.
+/// As closely as so few directions are worth: of a generated tube of 64 points a loop the root mean square error is 0.067,
+/// 0.076 from every point, and 0.088 with places twice as far apart.
 const DETAIL: Detail = Detail { apart: 2.0, part: 2.0 };
 /// Share of the search tree that is put in better order: little more makes looks faster.
 const REINSERTED: f32 = 0.05;
