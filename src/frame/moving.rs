@@ -179,6 +179,11 @@ impl Poser {
 
     /// Stops, and gives the movers back; none where the thread ended before its time.
     pub fn finish(mut self) -> Option<Movers> {
+        self.stop()
+    }
+
+    fn stop(&mut self) -> Option<Movers> {
+        // The thread ends where nobody is at the other end.
         (self.ready, self.empty) = (None, None);
         self.thread.take()?.join().ok()
     }
@@ -194,11 +199,7 @@ impl Poser {
 
 impl Drop for Poser {
     fn drop(&mut self) {
-        // The thread ends where nobody is at the other end.
-        (self.ready, self.empty) = (None, None);
-        if let Some(thread) = self.thread.take() {
-            drop(thread.join());
-        }
+        drop(self.stop());
     }
 }
 

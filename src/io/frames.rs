@@ -83,6 +83,15 @@ impl FrameSource {
     }
 }
 
+/// Whether there is a frame of that number among `count`; `path` is what is named where not.
+fn check_frame(path: &Path, frame: u64, count: u64) -> Result<(), FileError> {
+    if frame < count {
+        return Ok(());
+    }
+    let message = format!("expected a frame of 0 to {}, found none", count - 1);
+    Err(FileError::new(path, Place::Frame(frame), message))
+}
+
 /// A file of raw frames.
 #[derive(Debug)]
 pub struct RawFrames {
@@ -117,10 +126,8 @@ impl RawFrames {
     }
 
     fn read(&mut self, frame: u64) -> Result<Vec<DVec3>, FileError> {
+        check_frame(&self.path, frame, self.count)?;
         let error = |message: String| FileError::new(&self.path, Place::Frame(frame), message);
-        if frame >= self.count {
-            return Err(error(format!("expected a frame of 0 to {}, found none", self.count - 1)));
-        }
         self.bytes.resize(self.points * POINT_BYTES, 0);
         self.file
             .seek(SeekFrom::Start(frame * self.bytes.len() as u64))
@@ -169,14 +176,11 @@ impl NumberedFrames {
 
     fn read(&mut self, frame: u64) -> Result<Vec<DVec3>, FileError> {
         let path = self.names.file(self.first.saturating_add(frame));
-        let error = |message: String| FileError::new(&path, Place::Frame(frame), message);
-        if frame >= self.count {
-            return Err(error(format!("expected a frame of 0 to {}, found none", self.count - 1)));
-        }
+        check_frame(&path, frame, self.count)?;
         let Loaded { curves, layout, .. } = read_unrepaired(&path)
             .map_err(|e| FileError { message: format!("frame {frame}: {}", e.message), ..e })?;
         match self.layout.difference(&layout) {
-            Some(message) => Err(error(message)),
+            Some(message) => Err(FileError::new(&path, Place::Frame(frame), message)),
             None => Ok(curves.curves.into_iter().flat_map(|curve| curve.points).collect()),
         }
     }
@@ -212,10 +216,7 @@ impl GltfFrames {
     }
 
     fn read(&self, frame: u64) -> Result<Vec<DVec3>, FileError> {
-        if frame >= self.count {
-            let message = format!("expected a frame of 0 to {}, found none", self.count - 1);
-            return Err(FileError::new(&self.path, Place::Frame(frame), message));
-        }
+        check_frame(&self.path, frame, self.count)?;
         let points = self.model.points(Some(frame as f64 / self.per_second));
         points.map_err(|e| FileError { place: Place::Frame(frame), ..e })
     }

@@ -62,7 +62,7 @@ impl Kept {
 
     /// What was kept under a key, whole and unchanged.
     pub fn get(&self, part: &str, key: &Key) -> Option<Vec<u8>> {
-        let path = self.0.as_ref()?.path(part, &name(key));
+        let path = self.0.as_ref()?.path(part, &key.hex());
         let mut bytes = std::fs::read(&path).ok()?;
         let start = bytes.len().checked_sub(HASH_BYTES)?;
         let whole = bytes[start..] == seal(key, &bytes[..start]);
@@ -80,7 +80,7 @@ impl Kept {
     pub fn put(&self, part: &str, key: &Key, bytes: &[u8]) {
         let Some(cache) = &self.0 else { return };
         let write = || {
-            let path = cache.file(part, &name(key))?;
+            let path = cache.file(part, &key.hex())?;
             write_whole(&path, |out| {
                 out.write_all(bytes)?;
                 out.write_all(&seal(key, bytes))
@@ -92,10 +92,6 @@ impl Kept {
             Err(error) => tracing::debug!("not kept: {error}"),
         }
     }
-}
-
-fn name(key: &Key) -> String {
-    key.hex()
 }
 
 /// Of what is kept and of what it is kept under: a file under another's name is not taken for it.
@@ -143,7 +139,7 @@ mod tests {
         kept.put("part", &key, b"result");
         assert_eq!(kept.get("part", &key).as_deref(), Some(&b"result"[..]));
         assert_eq!((kept.get("part", &other), kept.get("other", &key)), (None, None));
-        let [path, other_path] = [&key, &other].map(|key| home.path().join("part").join(name(key)));
+        let [path, other_path] = [&key, &other].map(|key| home.path().join("part").join(key.hex()));
         let whole = std::fs::read(&path).unwrap();
         for cut in 0..whole.len() {
             std::fs::write(&path, &whole[..cut]).unwrap();
@@ -173,9 +169,9 @@ mod tests {
             Key::new("a", "1").shown(&f64::MIN_POSITIVE.next_up()),
         ];
         for (i, key) in keys.iter().enumerate() {
-            assert!(keys[..i].iter().all(|other| name(other) != name(key)), "{i}");
+            assert!(keys[..i].iter().all(|other| other.hex() != key.hex()), "{i}");
         }
-        assert_eq!(name(&Key::new("a", "1")), name(&keys[0]));
+        assert_eq!(Key::new("a", "1").hex(), keys[0].hex());
     }
 
     #[test]

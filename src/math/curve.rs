@@ -75,7 +75,8 @@ pub fn bezier_from_basis(p: &[DVec3; 4], basis: Basis) -> [DVec3; 4] {
     }
 }
 
-/// Share of a piece's control polygon that may be longer than its chord where one rule spans the whole piece.
+/// Most that a leg of a piece's control polygon may go less far along the chord than its longest leg is long, as a share
+/// of that, where one rule spans the whole piece.
 const GENTLE: f64 = 0.1;
 
 /// Arc length of a cubic piece from t = `start` to t = `end`, in the points' unit. Gauss-Legendre

@@ -1,9 +1,8 @@
 //! How much fibers turn about their yarn beyond what the yarn's own bends and the cloth's turns account for.
 
 use super::pose::Pose;
-use crate::math::frame::{direction_or, normal_perpendicular_to};
-use crate::yarn::fiber::turned_normal;
 use crate::yarn::strand::Strands;
+use crate::yarn::transport::carried_normal;
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -11,7 +10,7 @@ use std::f64::consts::PI;
 /// tangents, to the second. All are unit vectors.
 pub fn turn_between(tangents: [DVec3; 2], normals: [DVec3; 2]) -> f64 {
     let [from, to] = tangents;
-    let carried = normal_perpendicular_to(to, direction_or(turned_normal(from, to, normals[0]), normals[0]));
+    let carried = carried_normal(from, to, normals[0]);
     to.dot(carried.cross(normals[1])).atan2(carried.dot(normals[1]))
 }
 

@@ -2,10 +2,9 @@
 //! are history-free: the rest normal by the local rotation, and by what then is left between the tangents.
 
 use super::local_rotation::LocalRotations;
-use crate::math::frame::{direction_or, normal_perpendicular_to};
-use crate::yarn::fiber::turned_normal;
 use crate::yarn::pose::{PointMap, PointOrigin};
 use crate::yarn::strand::Strands;
+use crate::yarn::transport::carried_normal;
 use glam::{DQuat, DVec3};
 
 /// Where points and normals of some strands are, in the strands' own order.
@@ -77,17 +76,12 @@ impl RestPose {
         let rotations: Vec<DQuat> = self.map.origins().iter().map(rotation).collect();
         let normal = |place: usize| {
             let turned = rotations[place] * self.strands.normals[place];
-            moved_normal(rotations[place] * self.tangents[place], tangents[place], turned)
+            // What the cloth has taken along, the rest of the way from the tangent that it has taken along to the yarn's own.
+            carried_normal(rotations[place] * self.tangents[place], tangents[place], turned)
         };
         let normals = (0..points.len()).map(normal).collect();
         Some(Pose { points, normals, tangents, rotations })
     }
-}
-
-/// The normal that the cloth has taken along, turned the rest of the way from the tangent that the cloth has taken along
-/// to the yarn's own. Opposite tangents leave it as it is but for what lies along the tangent.
-fn moved_normal(carried: DVec3, tangent: DVec3, normal: DVec3) -> DVec3 {
-    normal_perpendicular_to(tangent, direction_or(turned_normal(carried, tangent, normal), normal))
 }
 
 /// Which of the strands' points carry a normal.

@@ -22,18 +22,18 @@ fn carry(from: Station, to: Station, normal: DVec3) -> DVec3 {
     let reflect = |plane: DVec3, v: DVec3| v - plane * (2.0 * plane.dot(v) / plane.length_squared());
     let chord = direction_or(to.position - from.position, DVec3::ZERO);
     if chord == DVec3::ZERO {
-        return turn(from.tangent, to.tangent, normal);
+        return carried_normal(from.tangent, to.tangent, normal);
     }
     let second = to.tangent - reflect(chord, from.tangent);
     if second.length_squared() < 1e-12 {
-        return turn(from.tangent, to.tangent, normal);
+        return carried_normal(from.tangent, to.tangent, normal);
     }
     normal_perpendicular_to(to.tangent, reflect(second, reflect(chord, normal)))
 }
 
-/// `normal` after the smallest rotation from one unit tangent to another; where they are opposite the
-/// normal is already perpendicular to both.
-fn turn(from: DVec3, to: DVec3, normal: DVec3) -> DVec3 {
+/// The unit `normal` of a curve with the unit tangent `from` after the smallest rotation to the unit tangent `to`; where
+/// they are opposite the normal is already perpendicular to both.
+pub fn carried_normal(from: DVec3, to: DVec3, normal: DVec3) -> DVec3 {
     normal_perpendicular_to(to, direction_or(turned_normal(from, to, normal), normal))
 }
 
@@ -51,7 +51,7 @@ pub fn knot_normals(pieces: &[[DVec3; 4]]) -> Vec<DVec3> {
     for b in pieces {
         // Where two pieces meet only the tangent may jump.
         let corner = station(b, 0.0);
-        normal = turn(at.tangent, corner.tangent, normal);
+        normal = carried_normal(at.tangent, corner.tangent, normal);
         at = corner;
         for step in 1..=STEPS_PER_PIECE {
             let next = station(b, f64::from(step) / f64::from(STEPS_PER_PIECE));
