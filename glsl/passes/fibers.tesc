@@ -86,10 +86,12 @@ uint twisted_pieces(Segment segment, vec3 b[4], float reach, float tolerance_mm,
 Cut cut_of(Segment segment, vec3 b[4], Turning turning, float pixel_mm, uint most) {
     float reach = fiber_reach();
     float tolerance_mm = frame.tolerance_px * pixel_mm;
-    vec3 nowhere[4] = vec3[4](b[0], b[0], b[0], b[0]);
-    uint even = twisted_pieces(segment, b, reach, tolerance_mm, most);
-    uint calm = twisted_pieces(segment, nowhere, reach, tolerance_mm, most);
-    Cut cut = uneven_cut(turning, b, even, calm, yarn.ply_offset + reach, tolerance_mm, most);
+    Cut cut = Cut(twisted_pieces(segment, b, reach, tolerance_mm, most), 0.0);
+    if (SWIFT_TURNS) {
+        vec3 nowhere[4] = vec3[4](b[0], b[0], b[0], b[0]);
+        uint calm = twisted_pieces(segment, nowhere, reach, tolerance_mm, most);
+        cut = uneven_cut(turning, b, cut.pieces, calm, yarn.ply_offset + reach, tolerance_mm, most);
+    }
     if (FLYAWAYS) {
         // Where cuts follow turns, steps elsewhere are longer.
         cut.pieces = period_pieces(cut.pieces, period_rate(segment, yarn) / (1.0 - cut.share), most);
@@ -143,7 +145,10 @@ void main() {
         patch_mask = all_slots();
         fiber_count = uint(bitCount(patch_mask.x) + bitCount(patch_mask.y));
     }
-    Turning turning = turning_of(b);
+    Turning turning;
+    if (SWIFT_TURNS) {
+        turning = turning_of(b);
+    }
     Cut cut = Cut(1u, 0.0);
     if (!culled && fiber_count > 0u) {
         cut = cut_of(segment, b, turning, pixel_mm, yarn.max_subdivisions);
@@ -155,7 +160,9 @@ void main() {
     patch_fibers = fiber_count;
     patch_pieces = pieces;
     hand_on(segment, span);
-    hand_on_breaks(turning, cut.share);
+    if (SWIFT_TURNS) {
+        hand_on_breaks(turning, cut.share);
+    }
     gl_TessLevelOuter[0] = culled ? 0.0 : float(fiber_count);
     gl_TessLevelOuter[1] = culled ? 0.0 : float(pieces);
     if (STATISTICS) {

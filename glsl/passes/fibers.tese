@@ -47,14 +47,14 @@ Segment handed_segment() {
 // Where the piece is cut for the `place`-th time.
 float cut_at(float place) {
     float share = place / float(patch_pieces);
-    return patch_uneven != 0u ? tabled_break(patch_breaks, share) : share;
+    return SWIFT_TURNS && patch_uneven != 0u ? tabled_break(patch_breaks, share) : share;
 }
 
 // Where the vertices beside that at t = cut_at(place) lie: outside of 0 to 1 where there is none.
 vec2 cuts_beside(float place, float t) {
     float before = t - 1.0 / float(patch_pieces);
     float behind = t + 1.0 / float(patch_pieces);
-    if (patch_uneven != 0u) {
+    if (SWIFT_TURNS && patch_uneven != 0u) {
         before = place > 0.5 ? cut_at(place - 1.0) : -1.0;
         behind = place + 0.5 < float(patch_pieces) ? cut_at(place + 1.0) : 2.0;
     }

@@ -17,8 +17,17 @@ pub fn scene_of(text: &str, curves: &[Curve], yarn: &YarnParams) -> Scene {
     let fiber = fiber_presets::fiber(fiber_presets::DEFAULT_FIBER).unwrap();
     let name = "test".to_owned();
     let (notes, load) = (Vec::new(), LoadTimes::default());
-    let fabric =
-        Fabric { name, yarn: yarn.clone(), fiber, strands, mm_per_unit: 1.0, motion: None, notes, load };
+    let fabric = Fabric {
+        name,
+        yarn: yarn.clone(),
+        fiber,
+        strands,
+        mm_per_unit: 1.0,
+        motion: None,
+        turns_swiftly: false,
+        notes,
+        load,
+    };
     let (low, high) = bounds(fabric.hull_points());
     Scene { file, fabrics: vec![fabric], origin_mm: 0.5 * (low + high), environment: None }
 }

@@ -17,6 +17,7 @@ use crate::yarn::params::YarnParams;
 #[cfg(test)]
 use crate::yarn::presets;
 use crate::yarn::strand::{MOST_MIGRATIONS, Piece, Strands, strands};
+use crate::yarn::turning::turns_swiftly;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::path::Path;
@@ -37,6 +38,8 @@ pub struct Fabric {
     pub mm_per_unit: f64,
     /// How it moves, if it does.
     pub motion: Option<Motion>,
+    /// Whether some piece of its yarns turns so fast that fibers' cuts must follow, or may come to as it moves.
+    pub turns_swiftly: bool,
     /// What a user should know of how the file was read, one line each.
     pub notes: Vec<String>,
     /// How long it took to make.
@@ -113,12 +116,14 @@ impl Fabric {
         let curves = world_curves(&loaded, mm_per_unit);
         let strands = strands(&curves, loaded.curves.basis, &yarn, file.seed);
         check_turns(&strands).map_err(|message| value(format!("{}: {message}", table.model)))?;
-        let load = LoadTimes { unit, yarns: started.elapsed(), ..Default::default() };
         // A model that says itself how it moves does so unless it is told otherwise.
         let motion = table.motion.as_deref().or(loaded.moves.then_some(table.model.as_str()));
+        let turns_swiftly = motion.is_some() || turns_swiftly(&strands);
+        let load = LoadTimes { unit, yarns: started.elapsed(), ..Default::default() };
         let per_second = file.animation.frames_per_second;
         let motion = motion.map(|path| Motion::new(Path::new(path), &loaded, mm_per_unit, per_second));
-        Ok(Self { name: table.model.clone(), yarn, fiber, strands, mm_per_unit, motion, notes, load })
+        let name = table.model.clone();
+        Ok(Self { name, yarn, fiber, strands, mm_per_unit, motion, turns_swiftly, notes, load })
     }
 
     /// Positions that the picture must hold: the Bezier control points of every piece, in mm.
@@ -141,6 +146,7 @@ impl Fabric {
             strands,
             mm_per_unit: 1.0,
             motion: None,
+            turns_swiftly: false,
             notes: Vec::new(),
             load: LoadTimes::default(),
         }

@@ -50,6 +50,8 @@ pub struct Features {
     pub debug_view: DebugView,
     /// Loops or hairs exist.
     pub flyaways: bool,
+    /// Some piece of yarn turns so fast that cuts must follow, or may come to.
+    pub swift_turns: bool,
     /// Core fibers stand for some of the fibers.
     pub core_fibers: bool,
     /// And are drawn.
@@ -92,6 +94,7 @@ pub enum SpecializationId {
     VertexShading = 22,
     AtVertices = 23,
     ChordShadow = 24,
+    SwiftTurns = 25,
 }
 
 /// Whether light is dimmed inside a yarn by the table over its whole cross-section, where it is: a scene that states that
@@ -146,6 +149,7 @@ impl Features {
             environment,
             debug_view: file.debug.view,
             flyaways: Flyaways::new(&fabric.yarn).exist(),
+            swift_turns: fabric.turns_swiftly,
             core_fibers: shown != FibersShown::Every,
             core_fibers_drawn: matches!(shown, FibersShown::Both | FibersShown::Core),
             level_of_detail: file.quality.level_of_detail && shown != FibersShown::Every,
@@ -176,7 +180,7 @@ impl Features {
 
     /// Identifier and value of every specialization constant, booleans as 0 and 1, for frames of `samples`
     /// samples a pixel; `at_vertices` for the pipelines that shade there.
-    pub fn specialization(&self, samples: u32, at_vertices: bool) -> [(SpecializationId, u32); 25] {
+    pub fn specialization(&self, samples: u32, at_vertices: bool) -> [(SpecializationId, u32); 26] {
         use SpecializationId as Id;
         [
             (Id::Basis, self.basis as u32),
@@ -204,6 +208,7 @@ impl Features {
             (Id::VertexShading, self.vertex_shading.into()),
             (Id::AtVertices, at_vertices.into()),
             (Id::ChordShadow, self.chord_shadow.into()),
+            (Id::SwiftTurns, self.swift_turns.into()),
         ]
     }
 
@@ -247,6 +252,11 @@ impl Features {
         leave(self.shadow_map && !self.soft_shadows, "soft_shadows", "no light has an angular_size_deg");
         leave(shaded && (light || self.ambient) && !self.self_shadow, "self_shadow", "shadow.self is false");
         leave(!self.flyaways, "flyaways", "the yarn has neither loops nor hairs");
+        leave(
+            !self.swift_turns,
+            "swift_turns",
+            "no piece of the yarn turns a quarter within an eighth of itself",
+        );
         leave(!self.core_fibers, "core_fibers", "debug.fibers is every: no fiber is left to stand for");
         leave(!self.regular_fibers, "regular_fibers", "debug.fibers is core");
         leave(

@@ -11,7 +11,7 @@ fn features(edit: impl FnOnce(&mut SceneFile, &mut Fabric)) -> Features {
 #[test]
 fn a_default_scene_leaves_out_only_what_it_lacks() {
     let out = features(|_, _| {}).left_out();
-    let expected = ["environment", "local_lights", "soft_shadows", "statistics"];
+    let expected = ["environment", "local_lights", "soft_shadows", "statistics", "swift_turns"];
     assert_eq!(out.keys().copied().collect::<Vec<_>>(), expected);
 }
 
@@ -71,6 +71,14 @@ fn plies_that_no_table_shows_are_followed_one_by_one() {
     assert!(stated.self_shadow && !stated.chord_shadow);
     let unlit = features(|file, fabric| (file.shadow.inside = false, flat(fabric)).1);
     assert!(!unlit.self_shadow && !unlit.chord_shadow);
+}
+
+#[test]
+fn cuts_follow_turns_only_where_yarn_turns_fast_or_may_come_to() {
+    let knitted = features(|_, _| {});
+    assert!(!knitted.swift_turns && knitted.left_out().contains_key("swift_turns"));
+    let hairpin = features(|_, fabric| fabric.turns_swiftly = true);
+    assert!(hairpin.swift_turns && !hairpin.left_out().contains_key("swift_turns"));
 }
 
 #[test]

@@ -2,9 +2,11 @@
 //! out swings around half a circle in a hundredth of a piece. Twin of `glsl/yarn/turning.glsl`.
 
 use super::level::turning_angle;
+use super::strand::{Piece, Strands};
 use crate::math::angle::angle_of;
 use crate::math::curve::bezier_point;
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// The two places of a piece at which it turns fastest. A cubic in a plane turns by atan((t - place) / width), of both.
@@ -67,6 +69,13 @@ pub fn turning_of(b: &[DVec3; 4]) -> Turning {
     let rates = widths / (widths * widths + beyond * beyond);
     let swift = ((rates.max_element() - SWIFT_TURN) / (SWIFTEST_TURN - SWIFT_TURN)).clamp(0.0, 1.0);
     Turning { places, widths, swift: swift * swift * (3.0 - 2.0 * swift) }
+}
+
+/// Whether any piece of these yarns turns so fast that cuts must follow.
+pub fn turns_swiftly(strands: &Strands) -> bool {
+    // Written so that what is no number counts.
+    let even = |piece: &Piece| turning_of(&strands.bezier(piece)).swift <= 0.0;
+    strands.pieces.par_iter().any(|piece| !even(piece))
 }
 
 /// Angle in radians that the piece has turned by at t, but for a constant.

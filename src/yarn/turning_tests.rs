@@ -1,5 +1,7 @@
 use super::*;
-use crate::math::curve::{Basis, bezier_from_basis};
+use crate::math::curve::{Basis, Curve, bezier_from_basis};
+use crate::yarn::presets;
+use crate::yarn::strand::strands;
 
 /// A piece of yarn that runs 9 mm and turns back at both of its ends onto a line 1.6 mm beside.
 fn hairpin() -> [DVec3; 4] {
@@ -105,4 +107,18 @@ fn what_swings_around_a_hairpin_departs_by_no_more_than_allowed() {
         });
         assert!(longest.fold(0.0, f64::max) * f64::from(calm) < 1.0 + 1e-5, "{pieces} for {calm} calm ones");
     }
+}
+
+#[test]
+fn one_hairpin_among_many_pieces_is_found() {
+    let yarn = presets::yarn(presets::DEFAULT_YARN).unwrap();
+    let wave: Vec<_> = (0..41).map(|i| DVec3::new(f64::from(i), (0.5 * f64::from(i)).sin(), 0.0)).collect();
+    let swift = |points: Vec<DVec3>| {
+        turns_swiftly(&strands(&[Curve { points, closed: false }], Basis::CatmullRom, &yarn, 0))
+    };
+    assert!(!swift(wave.clone()));
+    let mut folded = wave;
+    // It comes back beside itself.
+    folded[30] = folded[28] + 0.01 * DVec3::Z;
+    assert!(swift(folded));
 }

@@ -35,6 +35,7 @@ pub fn everything() -> Features {
         environment: true,
         debug_view: DebugView::Shaded,
         flyaways: true,
+        swift_turns: true,
         core_fibers: true,
         core_fibers_drawn: true,
         level_of_detail: true,

@@ -35,7 +35,7 @@ fn every_embedded_shader_is_valid() {
 
 /// Everything, nothing, and everything but one thing.
 fn variants() -> Vec<Features> {
-    let edits: [fn(&mut Features); 18] = [
+    let edits: [fn(&mut Features); 19] = [
         |_| (),
         |f| f.statistics = false,
         |f| f.light_count = 0,
@@ -50,6 +50,7 @@ fn variants() -> Vec<Features> {
         |f| (f.specular, f.physical) = (false, false),
         |f| f.diffuse = false,
         |f| f.flyaways = false,
+        |f| f.swift_turns = false,
         |f| (f.core_fibers, f.level_of_detail) = (false, false),
         |f| f.culling = false,
         |f| f.debug_view = DebugView::Occlusion,
@@ -70,6 +71,7 @@ fn variants() -> Vec<Features> {
                 specular: false,
                 diffuse: false,
                 flyaways: false,
+                swift_turns: false,
                 core_fibers: false,
                 level_of_detail: false,
                 ..*f

@@ -79,6 +79,27 @@ fn any_number_of_fibers_is_drawn_the_same_however_it_is_split() {
 }
 
 #[test]
+fn leaving_out_swift_turns_changes_nothing_where_there_are_none() {
+    let left_out = scene(&swatch(), &[]);
+    assert!(!left_out.fabrics[0].turns_swiftly);
+    let mut looked_for = left_out.clone();
+    looked_for.fabrics[0].turns_swiftly = true;
+    let [left_out, looked_for] = [left_out, looked_for].map(|scene| draw(scene, SMALL, 4).linear);
+    assert_eq!(differing(&left_out, &looked_for), 0);
+
+    // And where there are, the code is what cuts the fibers by them.
+    let mut hairpin = hook();
+    hairpin.curves[0].points =
+        [[-4.5, 0.0], [4.5, 0.0], [-4.5, 1.6], [4.5, 1.6]].map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
+    let turning = scene(&hairpin, &[]);
+    assert!(turning.fabrics[0].turns_swiftly);
+    let mut cut_evenly = turning.clone();
+    cut_evenly.fabrics[0].turns_swiftly = false;
+    let [turning, cut_evenly] = [turning, cut_evenly].map(|scene| draw(scene, SMALL, 4).linear);
+    assert!(differing(&turning, &cut_evenly) > 0);
+}
+
+#[test]
 fn the_size_of_submissions_does_not_change_a_picture() {
     for samples in [1, 4, 16] {
         let whole = draw(scene(&swatch(), &[]), SMALL, samples).linear;
