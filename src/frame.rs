@@ -2,6 +2,7 @@
 
 mod bake;
 mod cloth;
+mod edit;
 mod keeping;
 pub mod lighting;
 pub mod moving;
@@ -10,6 +11,7 @@ mod plan;
 pub mod sampling;
 mod savings;
 pub mod stats;
+pub mod tables;
 mod textures;
 pub mod upload;
 
@@ -23,19 +25,15 @@ use crate::passes::shadow_map::{ShadowMap, ShadowMapPass};
 use crate::passes::targets::Targets;
 use crate::passes::tonemap::TonemapPass;
 use crate::precompute::environment::Environment;
+use crate::scene::Scene;
 use crate::scene::camera::Camera;
-use crate::scene::features::Features;
-use crate::scene::file::{CameraTable, DebugView};
-use crate::scene::light::{LightTable, check_lights};
 use crate::scene::needs::{Need, any_needs};
-use crate::scene::{Scene, SceneError};
 use crate::shaders::ShaderSet;
 use crate::vulkan::{Buffer, Device, ImageState, MemoryKind, Taken, VulkanError, vk};
 use crate::yarn::table::fiber_table;
-use bake::Bakes;
 pub use bake::check_tables;
 use cloth::Cloth;
-use keeping::{Bakery, KeptPipelines};
+use keeping::KeptPipelines;
 use lighting::{LightRoom, light_scale, lights_that_reach};
 use plan::Planned;
 use sampling::Sampling;
@@ -43,6 +41,7 @@ use stats::Stats;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use tables::Tables;
 
 /// What a picture is asked to be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,6 +86,8 @@ pub struct Renderer {
     parts: Vec<(usize, u32)>,
     shadow_map: Option<ShadowMapPass>,
     fibers: FibersPass,
+    shaders: ShaderSet,
+    tables: Tables,
     resolve: ResolvePass,
     tonemap: TonemapPass,
     pipelines: KeptPipelines,
@@ -139,14 +140,26 @@ impl Renderer {
         kept: &Kept,
     ) -> Result<Self, VulkanError> {
         let pipelines = KeptPipelines::new(device, kept)?;
+        let tables = Tables::bake(&scene, &request, kept)?;
+        Self::assembled(device, scene, request, shaders, pipelines, tables)
+    }
+
+    /// Uploads the scene with tables that are there, and builds the passes that it needs.
+    fn assembled(
+        device: &Arc<Device>,
+        scene: Scene,
+        request: Request,
+        shaders: ShaderSet,
+        pipelines: KeptPipelines,
+        tables: Tables,
+    ) -> Result<Self, VulkanError> {
         let building = &pipelines.pipelines;
         let samples = request.sampling.multisampling();
         let targets = Targets::new(device, request.size, samples)?;
         let uniform = vk::BufferUsageFlags::UNIFORM_BUFFER;
         let frame_bytes = size_of::<crate::gpu_types::Frame>() as u64;
         let frame = Buffer::new(device, "frame", frame_bytes, uniform, MemoryKind::Upload)?;
-        let features: Vec<Features> =
-            scene.fabrics.iter().map(|f| Features::new(&scene.file, f, request.statistics)).collect();
+        let features = tables::features(&scene, &request);
         let counted = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
         let count = || Buffer::upload(device, "statistics", counted, &[Statistics::default()]);
         let statistics = any_needs(&features, Need::Statistics).then(count).transpose()?;
@@ -164,28 +177,24 @@ impl Renderer {
         };
         let views = shadow_views.clone();
         let mut shadow_map = map.zip(views).map(|(map, views)| ShadowMapPass::new(map, views, TUBE_CORNERS));
-        let mut fibers = FibersPass::new(building, buffers, &features, samples)?.with_shaders(shaders);
+        let mut fibers =
+            FibersPass::new(building, buffers, &features, samples)?.with_shaders(shaders.clone());
         let mut stats = Stats::new(device, &scene, &request);
         let started = Instant::now();
         let environment = upload::environment(&scene);
         if scene.environment.is_some() {
             stats.add_precompute("environment", started.elapsed(), false);
         }
-        let mut bakery = Bakery::new(kept, &mut stats);
+        for table in &tables.baked {
+            stats.add_precompute(&table.name, table.taken, table.from_cache);
+        }
         let mut first_piece = 0;
-        let cross_sections: Vec<_> =
-            scene.fabrics.iter().map(|fabric| fiber_table(&fabric.yarn, scene.file.seed)).collect();
-        let of_fabrics = scene.fabrics.iter().zip(&features).zip(&cross_sections);
-        let bakes: Vec<Bakes> = of_fabrics
-            .map(|((fabric, features), fibers)| Bakes::new(&scene, fabric, features, fibers, &mut bakery))
-            .collect::<Result<_, _>>()?;
         let (mut parts, mut moving) = (Vec::new(), moving::Moving::default());
-        let skies = bake::skies(&scene, &bakes, &features, &mut bakery);
         for (index, (fabric, features)) in scene.fabrics.iter().zip(features).enumerate() {
             let baked = upload::FabricBakes {
-                cross_section: &cross_sections[index],
-                bakes: &bakes[index],
-                skies: skies.as_ref().map(|skies| &skies[index][..]),
+                cross_section: &fiber_table(&fabric.yarn, scene.file.seed),
+                bakes: &tables.bakes[index],
+                skies: tables.skies.as_ref().map(|skies| &skies[index][..]),
             };
             let started = Instant::now();
             let uploaded = upload::fabric_buffers(device, &scene, fabric, &baked, first_piece)?;
@@ -202,15 +211,14 @@ impl Renderer {
             }
             stats.add_left_out(&features, |what| savings::saved_bytes(&scene, fabric, what));
         }
-        moving.keep_skies(skies);
-        stats.add_left_out_bakes(|name| keeping::last_bake_ms(kept, name));
-        let resolve = ResolvePass::new(building, &targets)?;
-        let tonemap = TonemapPass::new(building, &targets, &scene.file.display)?;
-        let device = device.clone();
-        let graph = Graph::default();
-        let cloth = Cloth::new(&scene);
+        moving.keep_skies(tables.skies.clone());
+        stats.add_left_out_bakes(|name| keeping::last_bake_ms(&pipelines.kept, name));
         Ok(Self {
-            device,
+            resolve: ResolvePass::new(building, &targets)?,
+            tonemap: TonemapPass::new(building, &targets, &scene.file.display)?,
+            cloth: Cloth::new(&scene),
+            device: device.clone(),
+            graph: Graph::default(),
             scene,
             request,
             targets,
@@ -220,46 +228,15 @@ impl Renderer {
             lights,
             shadow_views,
             light_room,
-            cloth,
             moving,
             parts,
             shadow_map,
             fibers,
-            resolve,
-            tonemap,
+            shaders,
+            tables,
             pipelines,
-            graph,
             stats,
         })
-    }
-
-    /// The camera the scene asks for.
-    pub fn camera(&self) -> Camera {
-        self.scene.camera(self.request.size)
-    }
-
-    /// Looks at the scene from elsewhere from now on.
-    pub fn set_camera(&mut self, camera: CameraTable) {
-        self.scene.file.camera = camera;
-    }
-
-    /// Lights the scene by others from now on. Those that give no light cost nothing.
-    ///
-    /// # Errors
-    /// What a scene file may not say of lights; more that shine or cast shadows than the scene had when the
-    /// renderer was built, or a point or spot light where it had none: its pipelines hold no code for them.
-    pub fn set_lights(&mut self, lights: Vec<LightTable>) -> Result<(), SceneError> {
-        let wrong = |message: String| SceneError::Value { scene: "lights".to_owned(), message };
-        check_lights(&lights).map_err(|error| wrong(error.to_string()))?;
-        // Views that show no light have no room for any, and need none.
-        let shaded = self.scene.file.debug.view == DebugView::Shaded;
-        let needed = LightRoom::needed(&lights, self.light_room.views > 0);
-        let needed = if shaded { needed } else { self.light_room };
-        if let Some(message) = self.light_room.lacks(&needed) {
-            return Err(wrong(message));
-        }
-        self.scene.file.light = Some(lights);
-        Ok(())
     }
 
     /// The fiber pass, for kernels that read the same buffers.
@@ -277,6 +254,19 @@ impl Renderer {
     /// # Errors
     /// Those of the device.
     pub fn render(&mut self, progress: &dyn Fn(f64)) -> Result<Picture, VulkanError> {
+        let goes_on = |share| {
+            progress(share);
+            true
+        };
+        let picture = self.render_while(&goes_on)?;
+        picture.ok_or_else(|| VulkanError::misuse("a picture was given up that nobody stopped"))
+    }
+
+    /// Draws one picture, or none if `goes_on`, which is told the share done, says to stop.
+    ///
+    /// # Errors
+    /// Those of the device.
+    pub fn render_while(&mut self, goes_on: &dyn Fn(f64) -> bool) -> Result<Option<Picture>, VulkanError> {
         let camera = self.camera();
         self.stats.left_out_of_frame.clear();
         let unseen = self.plan(&camera)?;
@@ -315,7 +305,10 @@ impl Renderer {
             let frame = Frame { light_count, ..frame };
             self.frame.write(0, &[frame])?;
             let timings = self.request.profile.then_some(&mut passes);
-            taken += self.draw_frame((index, frames), light_scale, timings, progress)?;
+            match self.draw_frame((index, frames), light_scale, timings, goes_on)? {
+                Some(time) => taken += time,
+                None => return Ok(None),
+            }
             if let Some(statistics) = self.statistics.as_ref().filter(|_| index == 0) {
                 self.stats.set_counts(statistics.read_staged()?, unseen);
             }
@@ -323,7 +316,7 @@ impl Renderer {
         self.stats.add_frame(taken, passes);
         let picture = self.read_picture()?;
         self.stats.inspect(&picture.linear, light_scale);
-        Ok(picture)
+        Ok(Some(picture))
     }
 
     /// Decides on the draws of a picture and returns how many pieces of yarn are in none of them.
@@ -339,26 +332,28 @@ impl Renderer {
         Ok(left_out().map(|(_, fabric)| fabric.strands.pieces.len() as u64).sum())
     }
 
-    /// Draws jittered frame `index` of `count` and adds it to the picture.
+    /// Draws jittered frame `index` of `count` and adds it to the picture; none if `goes_on` says to stop.
     fn draw_frame(
         &mut self,
         (index, count): (usize, usize),
         light_scale: f64,
         mut timings: Option<&mut HashMap<&'static str, Duration>>,
-        progress: &dyn Fn(f64),
-    ) -> Result<Taken, VulkanError> {
+        goes_on: &dyn Fn(f64) -> bool,
+    ) -> Result<Option<Taken>, VulkanError> {
         let parts = self.fibers.parts(self.scene.file.quality.curves_per_submission);
         let mut taken = Taken::NOTHING;
         for part in 0..parts {
             let fibers = self.fibers.pass(&self.targets, part, parts);
             taken += run(&mut self.graph, &self.device, &[fibers], timings.as_deref_mut())?;
-            progress((index as f64 + (part + 1) as f64 / parts as f64) / count as f64);
+            if !goes_on((index as f64 + (part + 1) as f64 / parts as f64) / count as f64) {
+                return Ok(None);
+            }
         }
         let mut finish = vec![self.resolve.pass(&self.targets, (index, count), light_scale)];
         if index + 1 == count {
             finish.push(self.tonemap.pass(&self.targets));
         }
-        Ok(taken + run(&mut self.graph, &self.device, &finish, timings)?)
+        Ok(Some(taken + run(&mut self.graph, &self.device, &finish, timings)?))
     }
 
     fn read_picture(&self) -> Result<Picture, VulkanError> {

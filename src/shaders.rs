@@ -1,6 +1,7 @@
 //! The SPIR-V of every shader under `glsl/`, compiled by `tools/build.rs` and embedded.
 
 use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
 
@@ -15,7 +16,7 @@ pub fn all() -> impl Iterator<Item = (&'static str, &'static [u32])> {
 }
 
 /// The shaders that yarn becomes fibers by: the embedded ones, with others in place of some.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct ShaderSet {
     replaced: BTreeMap<String, Vec<u32>>,
 }
@@ -25,6 +26,13 @@ impl ShaderSet {
     #[doc(hidden)]
     pub fn replacing(replaced: BTreeMap<String, Vec<u32>>) -> Self {
         Self { replaced }
+    }
+
+    /// A number that differs for sets that differ, in this run of the program.
+    pub fn digest(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.hash(&mut hasher);
+        hasher.finish()
     }
 
     /// The SPIR-V words of the shader at `path` under `glsl/`, or `None`.

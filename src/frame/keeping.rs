@@ -1,29 +1,40 @@
 //! What one run leaves to the next: baked tables, and pipelines as the driver compiled them.
 
-use super::stats::Stats;
 use crate::io::kept::{Kept, Key};
 use crate::passes::pipelines::{Building, Pipelines};
 use crate::precompute::stored::{BAKERS, Stored};
 use crate::shaders;
 use crate::vulkan::{Device, PipelineCache, VulkanError};
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Parts of the cache.
 const BAKES: &str = "bakes";
 const PIPELINES: &str = "pipelines";
 const TIMES: &str = "times";
 
+/// What getting one table took.
+#[derive(Clone, Debug)]
+pub struct Baked {
+    /// Its name.
+    pub name: String,
+    /// How long it took.
+    pub taken: Duration,
+    /// Whether it was read.
+    pub from_cache: bool,
+}
+
 /// Bakes tables, or reads those that an earlier run baked of the same inputs.
 pub struct Bakery<'a> {
     kept: &'a Kept,
-    stats: &'a mut Stats,
+    /// What that took, table by table.
+    pub baked: Vec<Baked>,
 }
 
 impl<'a> Bakery<'a> {
-    /// That tells `stats` how long each table took.
-    pub fn new(kept: &'a Kept, stats: &'a mut Stats) -> Self {
-        Self { kept, stats }
+    /// That keeps there what it bakes.
+    pub fn new(kept: &'a Kept) -> Self {
+        Self { kept, baked: Vec::new() }
     }
 
     /// The table called `name`, of what `inputs` adds to its key.
@@ -38,7 +49,7 @@ impl<'a> Bakery<'a> {
         let found = key.as_ref().and_then(|key| T::from_bytes(&self.kept.get(BAKES, key)?));
         let from_cache = found.is_some();
         let table = found.unwrap_or_else(bake);
-        self.stats.add_precompute(name, started.elapsed(), from_cache);
+        self.baked.push(Baked { name: name.to_owned(), taken: started.elapsed(), from_cache });
         if let Some(key) = key.filter(|_| !from_cache) {
             self.kept.put(BAKES, &key, &table.to_bytes());
             let taken_ms = 1e3 * started.elapsed().as_secs_f64();
@@ -59,10 +70,12 @@ pub fn last_bake_ms(kept: &Kept, name: &str) -> Option<f64> {
 }
 
 /// The pipelines of a renderer, and where they are kept.
+#[derive(Clone)]
 pub struct KeptPipelines {
     /// What passes build theirs with.
     pub pipelines: Arc<Pipelines>,
-    kept: Kept,
+    /// Where tables are kept as well.
+    pub kept: Kept,
     key: Key,
     /// Bytes that an earlier run left.
     pub found_bytes: Option<u64>,

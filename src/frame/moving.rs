@@ -4,6 +4,7 @@
 use super::Renderer;
 use super::cloth::Cloth;
 use super::packing;
+use super::tables::Skies;
 use super::upload::packed_points;
 use crate::gpu_types::ControlPoint;
 use crate::motion::mover::Movers;
@@ -15,16 +16,12 @@ use glam::{DQuat, DVec3};
 use half::f16;
 use rayon::prelude::*;
 use std::ops::Range;
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// Frames that exist at once: one is drawn while the next is worked out.
 const SETS: usize = 2;
-
-/// What is open of the sky above the control points of every fabric at rest.
-type Skies = Arc<Vec<Vec<[f16; 4]>>>;
 
 /// What of a scene moves on the device.
 #[derive(Default)]
@@ -63,8 +60,8 @@ impl Moving {
     }
 
     /// Keeps the skies at rest where something moves.
-    pub(super) fn keep_skies(&mut self, skies: Option<Vec<Vec<[f16; 4]>>>) {
-        self.skies = skies.filter(|_| !self.parts.is_empty()).map(Arc::new);
+    pub(super) fn keep_skies(&mut self, skies: Option<Skies>) {
+        self.skies = skies.filter(|_| !self.parts.is_empty());
     }
 }
 

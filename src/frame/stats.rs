@@ -140,6 +140,17 @@ impl Stats {
         }
     }
 
+    /// Takes note of what pictures are to be.
+    pub(super) fn set_request(&mut self, request: &Request) {
+        (self.size, self.samples) = (request.size, request.sampling.count());
+    }
+
+    /// Forgets the times of earlier pictures, for those of the next alone.
+    pub fn forget_pictures(&mut self) {
+        self.frames.clear();
+        self.passes.clear();
+    }
+
     /// Takes note of the upload of a fabric.
     pub(super) fn add_upload(&mut self, taken: Duration) {
         *self.load_ms.entry("upload".to_owned()).or_default() += ms(taken);

@@ -12,7 +12,6 @@ use crate::vulkan::{
     Access, ColorTarget, Commands, DepthTarget, DescriptorLayout, DescriptorSet, Image, ImageState, Pipeline,
     Rendering, VulkanError, vk,
 };
-use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -36,7 +35,6 @@ pub struct FibersPass {
     frame: FrameBuffers,
     frame_set: DescriptorSet,
     samplers: FabricSamplers,
-    pipelines: HashMap<(Features, Strands, Manner), Pipeline>,
     samples: vk::SampleCountFlags,
     fabrics: Vec<(Features, DescriptorLayout, DescriptorSet)>,
     draws: Vec<FabricDraw>,
@@ -62,7 +60,6 @@ impl FibersPass {
             frame,
             frame_set,
             samplers: FabricSamplers::default(),
-            pipelines: HashMap::new(),
             samples,
             fabrics: Vec::new(),
             draws: Vec::new(),
@@ -124,20 +121,14 @@ impl FibersPass {
             if draw.pipeline.is_some() || draw.plan.draw_count() == 0 {
                 continue;
             }
-            let key = (draw.features, draw.strands, draw.manner);
-            let built = match self.pipelines.get(&key) {
-                Some(pipeline) => pipeline.clone(),
-                None => {
-                    let what = (draw.strands, draw.manner);
-                    let layouts = [&self.frame_layout, &self.fabrics[draw.fabric].1];
-                    let (shaders, features) = (&self.shaders, &draw.features);
-                    let build =
-                        || strand_pipeline(&self.built, shaders, features, what, self.samples, &layouts);
-                    self.built.timed(build)?
-                }
-            };
-            self.pipelines.insert(key, built.clone());
-            draw.pipeline = Some(built);
+            let (what, features) = ((draw.strands, draw.manner), &draw.features);
+            let layouts = [&self.frame_layout, &self.fabrics[draw.fabric].1];
+            let bindings = layouts.map(DescriptorLayout::bindings);
+            let name =
+                format!("{what:?} {features:?} {:?} {bindings:?} {}", self.samples, self.shaders.digest());
+            let build =
+                || strand_pipeline(&self.built, &self.shaders, features, what, self.samples, &layouts);
+            draw.pipeline = Some(self.built.get(name, build)?);
         }
         Ok(())
     }

@@ -44,7 +44,8 @@ impl ImageKernel {
             push_constant_bytes: push_constant_bytes as u32,
             cache: pipelines.cache(),
         };
-        let pipeline = pipelines.timed(|| Pipeline::compute(pipelines.device(), &info))?;
+        let what = format!("{shader} {constants:?} {push_constant_bytes}");
+        let pipeline = pipelines.get(what, || Pipeline::compute(pipelines.device(), &info))?;
         let [a, b] = images.map(|image| Resource::StorageImage(image.view()));
         let set = DescriptorSet::new(&layout, name, &[(0, a), (1, b)])?;
         let [width, height, _] = images[0].extent();

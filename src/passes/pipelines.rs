@@ -1,8 +1,12 @@
-//! Where all passes have their pipelines built: with the driver's cache of compiled ones, and timed.
+//! Where all passes have their pipelines built: each once, with the driver's cache of compiled ones, and timed.
 
 use crate::vulkan::{Device, Pipeline, PipelineCache, VulkanError};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
+
+/// Pipelines beyond which those that nothing uses any more are let go.
+const MOST_UNUSED: usize = 64;
 
 /// What building has come to so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -13,17 +17,18 @@ pub struct Building {
     pub taken: Duration,
 }
 
-/// A device's pipelines.
+/// A device's pipelines. Renderers that share them build alike ones once.
 pub struct Pipelines {
     device: Arc<Device>,
     cache: Option<PipelineCache>,
     building: Mutex<Building>,
+    built: Mutex<HashMap<String, Pipeline>>,
 }
 
 impl Pipelines {
     /// Built on this device; with a cache where one is given.
     pub fn new(device: &Arc<Device>, cache: Option<PipelineCache>) -> Self {
-        Self { device: device.clone(), cache, building: Mutex::default() }
+        Self { device: device.clone(), cache, building: Mutex::default(), built: Mutex::default() }
     }
 
     /// The device.
@@ -38,22 +43,36 @@ impl Pipelines {
 
     /// What building has come to so far.
     pub fn building(&self) -> Building {
-        *self.building.lock().unwrap_or_else(PoisonError::into_inner)
+        *locked(&self.building)
     }
 
-    /// Builds one, and takes note of the time.
+    /// The pipeline called `what`, which says all that decides it; built where it is not there yet.
     ///
     /// # Errors
     /// Those of building it.
-    pub fn timed(
+    pub fn get(
         &self,
+        what: String,
         build: impl FnOnce() -> Result<Pipeline, VulkanError>,
     ) -> Result<Pipeline, VulkanError> {
+        if let Some(found) = locked(&self.built).get(&what) {
+            return Ok(found.clone());
+        }
         let started = Instant::now();
-        let built = build()?;
-        let mut building = self.building.lock().unwrap_or_else(PoisonError::into_inner);
+        let pipeline = build()?;
+        let mut building = locked(&self.building);
         building.count += 1;
         building.taken += started.elapsed();
-        Ok(built)
+        drop(building);
+        let mut built = locked(&self.built);
+        if built.len() >= MOST_UNUSED {
+            built.retain(|_, pipeline| pipeline.is_shared());
+        }
+        built.insert(what, pipeline.clone());
+        Ok(pipeline)
     }
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

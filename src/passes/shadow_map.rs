@@ -5,14 +5,12 @@ use super::spirv;
 use super::strand_pipeline::{Manner, specialization};
 use super::targets::DEPTH_FORMAT;
 use crate::graph::{Pass, Use};
-use crate::math::curve::Basis;
 use crate::scene::features::Features;
 use crate::vulkan::{
     Access, Buffer, ColorTarget, Commands, DepthState, DepthTarget, DescriptorLayout, DescriptorSet, Device,
     GraphicsPipelineInfo, Image, ImageInfo, ImageState, ImageView, Pipeline, Rendering, ShaderStage,
     VulkanError, trimmed, vk,
 };
-use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Bits of a depth, and a piece's number plus one; 0 where there is nothing.
@@ -78,14 +76,13 @@ pub struct ShadowMapPass {
     views: Buffer,
     frame_set: Option<DescriptorSet>,
     ribbons: Vec<Ribbons>,
-    pipelines: HashMap<Basis, Pipeline>,
     corners: u32,
 }
 
 impl ShadowMapPass {
     /// A pass that draws into `map` from `views`, each piece of yarn with `corners` corners.
     pub fn new(map: ShadowMap, views: Buffer, corners: u32) -> Self {
-        Self { map, views, frame_set: None, ribbons: Vec::new(), pipelines: HashMap::new(), corners }
+        Self { map, views, frame_set: None, ribbons: Vec::new(), corners }
     }
 
     /// Adds a fabric of `pieces` pieces of yarn, with the layouts and sets that the fiber pass reads it by.
@@ -100,11 +97,9 @@ impl ShadowMapPass {
         sets: [&DescriptorSet; 2],
         pieces: u32,
     ) -> Result<(), VulkanError> {
-        let pipeline = match self.pipelines.get(&features.basis) {
-            Some(pipeline) => pipeline.clone(),
-            None => pipelines.timed(|| pipeline(pipelines, features, layouts))?,
-        };
-        self.pipelines.insert(features.basis, pipeline.clone());
+        let bindings = layouts.map(DescriptorLayout::bindings);
+        let what = format!("shadow map {:?} {bindings:?}", features.basis);
+        let pipeline = pipelines.get(what, || pipeline(pipelines, features, layouts))?;
         self.frame_set = Some(sets[0].clone());
         self.ribbons.push(Ribbons { pipeline, fabric: sets[1].clone(), pieces });
         Ok(())

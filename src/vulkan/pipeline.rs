@@ -194,6 +194,11 @@ fn finish(
 }
 
 impl Pipeline {
+    /// Whether anything beside this clone holds the pipeline.
+    pub fn is_shared(&self) -> bool {
+        Arc::strong_count(&self.inner) > 1
+    }
+
     /// Compiles a compute pipeline.
     ///
     /// # Errors

@@ -1,0 +1,150 @@
+//! What may change between the pictures of a renderer, from what costs nothing to what is built anew.
+
+use super::lighting::LightRoom;
+use super::tables::Tables;
+use super::{Renderer, Request};
+use crate::io::kept::Kept;
+use crate::passes::resolve::ResolvePass;
+use crate::passes::targets::Targets;
+use crate::passes::tonemap::TonemapPass;
+use crate::scene::camera::Camera;
+use crate::scene::features::Features;
+use crate::scene::file::{CameraTable, DebugView, DisplayTable, SceneFile};
+use crate::scene::light::{LightTable, check_lights};
+use crate::scene::{Scene, SceneError};
+use crate::shaders::ShaderSet;
+use crate::vulkan::VulkanError;
+
+impl Renderer {
+    /// The camera the scene asks for.
+    pub fn camera(&self) -> Camera {
+        self.scene.camera(self.request.size)
+    }
+
+    /// Looks at the scene from elsewhere from now on.
+    pub fn set_camera(&mut self, camera: CameraTable) {
+        self.scene.file.camera = camera;
+    }
+
+    /// Lights the scene by others from now on. Those that give no light cost nothing.
+    ///
+    /// # Errors
+    /// What a scene file may not say of lights; more that shine or cast shadows than the scene had when the
+    /// renderer was built, or a point or spot light where it had none: its pipelines hold no code for them.
+    pub fn set_lights(&mut self, lights: Vec<LightTable>) -> Result<(), SceneError> {
+        let wrong = |message: String| SceneError::Value { scene: "lights".to_owned(), message };
+        check_lights(&lights).map_err(|error| wrong(error.to_string()))?;
+        // Views that show no light have no room for any, and need none.
+        let shaded = self.scene.file.debug.view == DebugView::Shaded;
+        let needed = LightRoom::needed(&lights, self.light_room.views > 0);
+        let needed = if shaded { needed } else { self.light_room };
+        if let Some(message) = self.light_room.lacks(&needed) {
+            return Err(wrong(message));
+        }
+        self.scene.file.light = Some(lights);
+        Ok(())
+    }
+
+    /// Shows pictures otherwise from now on.
+    ///
+    /// # Errors
+    /// Those of the device.
+    pub fn set_display(&mut self, display: DisplayTable) -> Result<(), VulkanError> {
+        self.tonemap = TonemapPass::new(&self.pipelines.pipelines, &self.targets, &display)?;
+        self.scene.file.display = display;
+        Ok(())
+    }
+
+    /// Draws pictures of another size, or of more or fewer samples, from now on.
+    ///
+    /// # Errors
+    /// Those of the device; other statistics or another number of samples a frame (1, or 4 and more) than the renderer
+    /// was built for.
+    pub fn set_request(&mut self, request: Request) -> Result<(), VulkanError> {
+        let samples = request.sampling.multisampling();
+        if request.statistics != self.request.statistics || samples != self.targets.samples {
+            let message =
+                "expected pictures with as many samples a frame and with the same statistics as at first";
+            return Err(VulkanError::misuse(message));
+        }
+        if request.size != self.targets.size {
+            let building = &self.pipelines.pipelines;
+            self.targets = Targets::new(&self.device, request.size, samples)?;
+            self.resolve = ResolvePass::new(building, &self.targets)?;
+            self.tonemap = TonemapPass::new(building, &self.targets, &self.scene.file.display)?;
+        }
+        self.request = request;
+        self.stats.set_request(&request);
+        Ok(())
+    }
+
+    /// Takes over what `file` says of camera, lights and display, if nothing else in it differs from the scene that is
+    /// drawn and its pipelines have the code for it; whether they have.
+    ///
+    /// # Errors
+    /// Those of the device.
+    pub fn edit_in_place(&mut self, file: &SceneFile) -> Result<bool, VulkanError> {
+        let shown = &self.scene.file;
+        let same_but_for_these = SceneFile {
+            camera: file.camera.clone(),
+            light: file.light.clone(),
+            display: file.display.clone(),
+            ..shown.clone()
+        };
+        if same_but_for_these != *file {
+            return Ok(false);
+        }
+        let features_of = |file: &SceneFile, renderer: &Self| -> Vec<_> {
+            let of = |fabric| Features::new(file, fabric, renderer.request.statistics);
+            renderer.scene.fabrics.iter().map(of).collect()
+        };
+        if features_of(file, self) != features_of(shown, self) {
+            return Ok(false);
+        }
+        if file.light != shown.light && self.set_lights(file.light()).is_err() {
+            return Ok(false);
+        }
+        if file.display != self.scene.file.display {
+            self.set_display(file.display.clone())?;
+        }
+        self.scene.file = file.clone();
+        Ok(true)
+    }
+
+    /// Draws another scene from now on, with tables that are there: [`Tables::bake`] makes them, on another thread if need
+    /// be, and those of another scene may stand for them meanwhile ([`Tables::may_stand_for`]). Pipelines that it shares with
+    /// the scene before stay.
+    ///
+    /// # Errors
+    /// Those of the device; the renderer is then as before.
+    pub fn edit(&mut self, scene: Scene, tables: Tables) -> Result<(), VulkanError> {
+        let (shaders, pipelines) = (self.shaders.clone(), self.pipelines.clone());
+        *self = Self::assembled(&self.device.clone(), scene, self.request, shaders, pipelines, tables)?;
+        Ok(())
+    }
+
+    /// Draws with other shaders between yarn and radiance from now on.
+    ///
+    /// # Errors
+    /// Those of the device; the renderer is then as before.
+    pub fn set_shaders(&mut self, shaders: ShaderSet) -> Result<(), VulkanError> {
+        let (scene, pipelines, tables) = (self.scene.clone(), self.pipelines.clone(), self.tables.clone());
+        *self = Self::assembled(&self.device.clone(), scene, self.request, shaders, pipelines, tables)?;
+        Ok(())
+    }
+
+    /// The tables that pictures are drawn with.
+    pub fn tables(&self) -> &Tables {
+        &self.tables
+    }
+
+    /// Where tables and pipelines are kept.
+    pub fn kept(&self) -> &Kept {
+        &self.pipelines.kept
+    }
+
+    /// Statistics of the pictures that follow, without the times of those before.
+    pub fn forget_pictures(&mut self) {
+        self.stats.forget_pictures();
+    }
+}
