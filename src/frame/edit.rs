@@ -1,5 +1,6 @@
 //! What may change between the pictures of a renderer, from what costs nothing to what is built anew.
 
+use super::keeping::KeptPipelines;
 use super::lighting::LightRoom;
 use super::tables::Tables;
 use super::{Renderer, Request};
@@ -7,15 +8,32 @@ use crate::io::kept::Kept;
 use crate::passes::resolve::ResolvePass;
 use crate::passes::targets::Targets;
 use crate::passes::tonemap::TonemapPass;
+use crate::scene::animation::AnimationTable;
 use crate::scene::camera::Camera;
 use crate::scene::features::Features;
 use crate::scene::file::{CameraTable, DebugView, DisplayTable, SceneFile};
 use crate::scene::light::{LightTable, check_lights};
 use crate::scene::{Scene, SceneError};
 use crate::shaders::ShaderSet;
-use crate::vulkan::VulkanError;
+use crate::vulkan::{Device, VulkanError};
+use std::sync::Arc;
 
 impl Renderer {
+    /// As [`Self::keeping`], with tables that are there.
+    ///
+    /// # Errors
+    /// Those of the device.
+    pub fn with_tables(
+        device: &Arc<Device>,
+        scene: Scene,
+        request: Request,
+        tables: Tables,
+        kept: &Kept,
+    ) -> Result<Self, VulkanError> {
+        let pipelines = KeptPipelines::new(device, kept)?;
+        Self::assembled(device, scene, request, ShaderSet::default(), pipelines, tables)
+    }
+
     /// The camera the scene asks for.
     pub fn camera(&self) -> Camera {
         self.scene.camera(self.request.size)
@@ -78,8 +96,9 @@ impl Renderer {
         Ok(())
     }
 
-    /// Takes over what `file` says of camera, lights and display, if nothing else in it differs from the scene that is
-    /// drawn and its pipelines have the code for it; whether they have.
+    /// Takes over what `file` says of camera, lights, display, and the frame that fabrics that move are shown at (where
+    /// [`Self::pose`] puts them), if nothing else in it differs from the scene that is drawn and its pipelines have the code
+    /// for it; whether they have.
     ///
     /// # Errors
     /// Those of the device.
@@ -89,6 +108,10 @@ impl Renderer {
             camera: file.camera.clone(),
             light: file.light.clone(),
             display: file.display.clone(),
+            animation: AnimationTable {
+                frame: shown.animation.frame.and(file.animation.frame),
+                ..shown.animation.clone()
+            },
             ..shown.clone()
         };
         if same_but_for_these != *file {
@@ -128,6 +151,9 @@ impl Renderer {
     /// # Errors
     /// Those of the device; the renderer is then as before.
     pub fn set_shaders(&mut self, shaders: ShaderSet) -> Result<(), VulkanError> {
+        if shaders == self.shaders {
+            return Ok(());
+        }
         let (scene, pipelines, tables) = (self.scene.clone(), self.pipelines.clone(), self.tables.clone());
         *self = Self::assembled(&self.device.clone(), scene, self.request, shaders, pipelines, tables)?;
         Ok(())
@@ -136,6 +162,16 @@ impl Renderer {
     /// The tables that pictures are drawn with.
     pub fn tables(&self) -> &Tables {
         &self.tables
+    }
+
+    /// What pictures are asked to be.
+    pub fn request(&self) -> &Request {
+        &self.request
+    }
+
+    /// The device.
+    pub fn device(&self) -> &Arc<Device> {
+        &self.device
     }
 
     /// Where tables and pipelines are kept.

@@ -12,6 +12,9 @@ const PER_FRAME: u32 = 4;
 pub struct Sampling(u32);
 
 impl Sampling {
+    /// One multisampled frame.
+    pub const FOUR: Self = Self(PER_FRAME);
+
     /// `samples` per pixel: 1, 4, 16, 36, 64 ... 4 n^2 up to 4096.
     ///
     /// # Errors

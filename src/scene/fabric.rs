@@ -3,6 +3,7 @@
 use super::SceneError;
 use super::fiber_table::resolve_fiber;
 use super::file::{FabricTable, SceneFile};
+use super::models::Models;
 use super::motion::{Motion, world_from_file};
 use super::yarn_table::resolve_yarn;
 use crate::bsdf::params::FiberParams;
@@ -10,7 +11,7 @@ use crate::bsdf::params::FiberParams;
 use crate::bsdf::presets as fiber_presets;
 use crate::io::curves::UpAxis;
 use crate::io::repair::summarize_repairs;
-use crate::io::yarn_file::{Loaded, load_yarn_file};
+use crate::io::yarn_file::Loaded;
 use crate::math::curve::Curve;
 use crate::yarn::contact::estimate_contact_radius;
 use crate::yarn::params::YarnParams;
@@ -59,7 +60,7 @@ pub struct LoadTimes {
 
 impl Fabric {
     /// Loads one fabric of a scene; `folder` is what its model's path is relative to and `scene` names
-    /// the scene in errors.
+    /// the scene in errors. A model that is among `models` is not read again.
     ///
     /// # Errors
     /// Bad yarn files, unknown presets or keys, values out of range.
@@ -68,15 +69,16 @@ impl Fabric {
         table: &FabricTable,
         folder: &Path,
         scene: &str,
+        models: &mut Models,
     ) -> Result<Self, SceneError> {
         if table.model.is_empty() {
             let message = "fabric.model: expected a yarn file, found none".to_owned();
             return Err(SceneError::Value { scene: scene.to_owned(), message });
         }
         let started = Instant::now();
-        let loaded = load_yarn_file(&folder.join(&table.model))?;
+        let loaded = models.yarns(&folder.join(&table.model))?;
         let read = started.elapsed();
-        let mut fabric = Self::from_loaded(file, table, loaded, scene)?;
+        let mut fabric = Self::from_loaded(file, table, &loaded, scene)?;
         if let Some(motion) = &mut fabric.motion {
             motion.path = folder.join(&motion.path);
             // What cannot be opened is said now, not after all has been baked.
@@ -93,7 +95,7 @@ impl Fabric {
     pub fn from_loaded(
         file: &SceneFile,
         table: &FabricTable,
-        loaded: Loaded,
+        loaded: &Loaded,
         scene: &str,
     ) -> Result<Self, SceneError> {
         let value = |message: String| SceneError::Value { scene: scene.to_owned(), message };
@@ -106,14 +108,14 @@ impl Fabric {
         let started = Instant::now();
         let mm_per_unit = match table.mm_per_unit {
             Some(given) => given,
-            None => matched_scale(&loaded, &preset, &mut notes),
+            None => matched_scale(loaded, &preset, &mut notes),
         };
         if !(1e-9..=1e9).contains(&mm_per_unit) {
             return Err(value(format!("fabric.mm_per_unit = {mm_per_unit}: allowed is 1e-9 to 1e9")));
         }
         let unit = started.elapsed();
         let started = Instant::now();
-        let curves = world_curves(&loaded, mm_per_unit);
+        let curves = world_curves(loaded, mm_per_unit);
         let strands = strands(&curves, loaded.curves.basis, &yarn, file.seed);
         check_turns(&strands).map_err(|message| value(format!("{}: {message}", table.model)))?;
         // A model that says itself how it moves does so unless it is told otherwise.
@@ -121,7 +123,7 @@ impl Fabric {
         let turns_swiftly = motion.is_some() || turns_swiftly(&strands);
         let load = LoadTimes { unit, yarns: started.elapsed(), ..Default::default() };
         let per_second = file.animation.frames_per_second;
-        let motion = motion.map(|path| Motion::new(Path::new(path), &loaded, mm_per_unit, per_second));
+        let motion = motion.map(|path| Motion::new(Path::new(path), loaded, mm_per_unit, per_second));
         let name = table.model.clone();
         Ok(Self { name, yarn, fiber, strands, mm_per_unit, motion, turns_swiftly, notes, load })
     }

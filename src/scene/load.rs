@@ -3,20 +3,18 @@
 use super::fiber_table::check_fibers;
 use super::file::{CameraTable, FabricTable, SceneFile};
 use super::keys::{KeyError, line_at};
-use super::light::{AmbientTable, check_lights};
+use super::light::check_lights;
+use super::models::Models;
 use super::yarn_table::check_yarns;
 use super::{Fabric, Scene, SceneError, overrides};
 use crate::io::curves::CurveSet;
-use crate::io::environment::read_environment;
 use crate::io::error::{FileError, Place, shown};
-use crate::io::picture::LinearImage;
 use crate::io::yarn_file::Loaded;
 use crate::knit::params::KnitParams;
 use crate::knit::stockinette::stockinette;
 use crate::math::bounds::bounds;
 use glam::DVec3;
 use std::path::Path;
-use std::sync::Arc;
 use toml::Table;
 
 /// Largest scene file read.
@@ -111,6 +109,21 @@ impl Scene {
                 None => file.fabric.push(FabricTable { model, ..Default::default() }),
             }
         }
+        Self::of_file(file, &folder, &name, &mut Models::default())
+    }
+
+    /// The scene that a file says, which may never have been written: `folder` is what its paths are relative to, `name` is
+    /// what errors call it. What `models` has read before is not read again.
+    ///
+    /// # Errors
+    /// As [`Self::load`].
+    pub fn of_file(
+        file: SceneFile,
+        folder: &Path,
+        name: &str,
+        models: &mut Models,
+    ) -> Result<Self, SceneError> {
+        let value = |message: String| SceneError::Value { scene: name.to_owned(), message };
         file.check().map_err(|(error, _)| value(error.to_string()))?;
         if file.fabric.is_empty() {
             return Err(value("expected a [fabric] with a model, found none".into()));
@@ -118,13 +131,13 @@ impl Scene {
         let fabrics = file
             .fabric
             .iter()
-            .map(|table| Fabric::load(&file, table, &folder, &name))
+            .map(|table| Fabric::load(&file, table, folder, name, models))
             .collect::<Result<Vec<_>, _>>()?;
         if file.animation.frame.is_some() && fabrics.iter().all(|fabric| fabric.motion.is_none()) {
             return Err(value("animation.frame: expected a fabric with a motion, found none".into()));
         }
         let origin_mm = origin(&file.camera, &fabrics);
-        let environment = load_environment(&file.ambient, &folder)?;
+        let environment = models.environment(&file.ambient, folder)?;
         Ok(Self { file, fabrics, origin_mm, environment })
     }
 
@@ -150,7 +163,7 @@ impl Scene {
         file.check().map_err(value)?;
         let loaded = Loaded::of_curves(curves, "curves");
         let table = FabricTable { model: name.to_owned(), mm_per_unit: Some(1.0), ..Default::default() };
-        let fabric = Fabric::from_loaded(&file, &table, loaded, name)?;
+        let fabric = Fabric::from_loaded(&file, &table, &loaded, name)?;
         file.fabric = vec![table];
         Self::of_fabrics(file, vec![fabric])
     }
@@ -161,14 +174,9 @@ impl Scene {
     /// An environment that cannot be read.
     pub fn of_fabrics(file: SceneFile, fabrics: Vec<Fabric>) -> Result<Self, SceneError> {
         let origin_mm = origin(&file.camera, &fabrics);
-        let environment = load_environment(&file.ambient, Path::new(""))?;
+        let environment = Models::default().environment(&file.ambient, Path::new(""))?;
         Ok(Self { file, fabrics, origin_mm, environment })
     }
-}
-
-/// The picture of the light from everywhere, where one gives light; `folder` is what its path is relative to.
-fn load_environment(ambient: &AmbientTable, folder: &Path) -> Result<Option<Arc<LinearImage>>, FileError> {
-    ambient.picture().map(|picture| read_environment(&folder.join(picture)).map(Arc::new)).transpose()
 }
 
 /// Reads a scene file and checks it as it stands, so that an error has its line.

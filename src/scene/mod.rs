@@ -10,6 +10,7 @@ pub mod keys;
 pub mod light;
 pub mod light_reach;
 pub mod load;
+pub mod models;
 pub mod motion;
 pub mod needs;
 pub mod overrides;

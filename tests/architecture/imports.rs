@@ -56,6 +56,7 @@ const TABLE: &[(&[&str], May)] = &[
             "scene",
             "motion",
             "precompute",
+            "shaders",
             "vulkan",
             "metrics",
             "error",

@@ -52,7 +52,7 @@ pub fn scene_of(file: SceneFile, name: &str, curves: Vec<Curve>) -> Result<Scene
     let curves = CurveSet { basis: Basis::CatmullRom, up_axis: Some(UpAxis::Y), curves };
     let loaded = Loaded::of_curves(curves, "figure");
     let table = FabricTable { mm_per_unit: Some(1.0), ..Default::default() };
-    let fabric = Fabric::from_loaded(&file, &table, loaded, name)?;
+    let fabric = Fabric::from_loaded(&file, &table, &loaded, name)?;
     Ok(Scene { file, fabrics: vec![fabric], origin_mm: DVec3::ZERO, environment: None })
 }
 

@@ -1,0 +1,86 @@
+//! How large pictures are while something moves, so that they come often enough.
+
+use std::time::Duration;
+
+/// Time that a picture may take while something moves: twelve a second.
+const TARGET_MS: f64 = 80.0;
+/// Smallest share of a picture's sides, and steps from there to the whole, so that few sizes are ever used.
+const STEPS: u32 = 12;
+/// Share by which one picture's time moves what is believed of the next one's.
+const BELIEF: f64 = 0.5;
+
+/// Learns how long pictures take.
+#[derive(Clone, Debug)]
+pub struct Pace {
+    /// Milliseconds of a whole picture, if the time went with its pixels.
+    whole_ms: f64,
+}
+
+impl Default for Pace {
+    /// Of a slow device: what is shown first may be coarse, but not late.
+    fn default() -> Self {
+        Self { whole_ms: 16.0 * TARGET_MS }
+    }
+}
+
+impl Pace {
+    /// Whether whole pictures come often enough.
+    pub fn whole_is_fast(&self) -> bool {
+        self.whole_ms <= TARGET_MS
+    }
+
+    /// The size at which the next picture is likely to come in time.
+    pub fn size(&self, whole: [u32; 2]) -> [u32; 2] {
+        let share = (TARGET_MS / self.whole_ms).sqrt().min(1.0);
+        let step = (share * f64::from(STEPS)).floor().max(1.0);
+        whole.map(|side| ((f64::from(side) * step / f64::from(STEPS)).round() as u32).max(1))
+    }
+
+    /// Takes note of what a picture of `size` took, of one that is `whole`.
+    pub fn learn(&mut self, size: [u32; 2], whole: [u32; 2], taken: Duration) {
+        let pixels = |size: [u32; 2]| f64::from(size[0]) * f64::from(size[1]);
+        let found_ms = 1e3 * taken.as_secs_f64() * pixels(whole) / pixels(size).max(1.0);
+        // In the logarithm: a picture may take a hundred times as long as another.
+        let believed = self.whole_ms.ln() + BELIEF * (found_ms.max(1e-3).ln() - self.whole_ms.ln());
+        self.whole_ms = believed.exp();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_settle_where_pictures_come_in_time() {
+        let whole = [960, 720];
+        // Half of the time does not go with the pixels.
+        for microseconds_a_pixel in [0.01, 0.5, 3.0] {
+            let time = |size: [u32; 2]| {
+                let pixels = f64::from(size[0]) * f64::from(size[1]);
+                Duration::from_secs_f64(1e-6 * microseconds_a_pixel * (pixels + 5000.0))
+            };
+            let mut pace = Pace::default();
+            for _ in 0..30 {
+                let size = pace.size(whole);
+                pace.learn(size, whole, time(size));
+            }
+            let size = pace.size(whole);
+            let last = 1e3 * time(size).as_secs_f64();
+            assert!(last < 1.3 * TARGET_MS, "{microseconds_a_pixel}: {size:?} {last}");
+            let larger = size.map(|side| side + whole[0] / 4);
+            assert!(
+                size == whole || 1e3 * time(larger).as_secs_f64() > 0.8 * TARGET_MS,
+                "{size:?} is too small"
+            );
+            assert_eq!(pace.whole_is_fast(), size == whole);
+        }
+    }
+
+    #[test]
+    fn the_slowest_device_still_gets_a_picture() {
+        let mut pace = Pace::default();
+        pace.learn([80, 60], [960, 720], Duration::from_secs(100));
+        assert_eq!(pace.size([960, 720]), [80, 60]);
+        assert_eq!(pace.size([3, 1]), [1, 1]);
+    }
+}

@@ -1,0 +1,217 @@
+//! What the painter has on the device: the scene that is shown, and how it follows what is wanted.
+
+use super::painter::Shown;
+use crate::error::Error;
+use crate::frame::moving::Poser;
+use crate::frame::tables::Tables;
+use crate::frame::{Picture, Renderer, Request};
+use crate::io::kept::Kept;
+use crate::motion::mover::Movers;
+use crate::scene::Scene;
+use crate::scene::camera::Camera;
+use crate::scene::file::{CameraTable, SceneFile};
+use crate::scene::models::Models;
+use crate::shaders::ShaderSet;
+use crate::vulkan::Device;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::mpsc::{Sender, channel};
+use std::time::Duration;
+
+/// A scene on the device.
+pub struct Showing {
+    /// Draws it.
+    pub renderer: Renderer,
+    /// The scene whose own tables are still to be baked: those that it is drawn with are of another one.
+    pub stale: Option<Scene>,
+    motion: Option<Moving>,
+}
+
+/// What moves, worked out on another thread.
+struct Moving {
+    times: Sender<f64>,
+    poser: Poser,
+    /// For a camera that is fitted to all that is played.
+    movers: Movers,
+    at: Option<f64>,
+    fitted: Option<(CameraTable, [u32; 2], CameraTable)>,
+}
+
+/// How far what is on the device can follow what is wanted.
+pub enum Followed {
+    /// It is shown already.
+    Already,
+    /// It is shown from now on: on a scene that was made anew, or edited in place.
+    Shown {
+        /// Made anew.
+        remade: bool,
+    },
+    /// Nothing on the device can stand for this scene before its tables are baked.
+    Awaited(Box<Scene>),
+}
+
+impl Showing {
+    /// A scene with its tables, or with such as stand for them unless `own`.
+    ///
+    /// # Errors
+    /// Those of the device; motions that cannot be opened.
+    pub fn new(
+        device: &Arc<Device>,
+        scene: Scene,
+        request: Request,
+        tables: Tables,
+        kept: &Kept,
+        own: bool,
+    ) -> Result<Self, Error> {
+        let movers = Movers::open(&scene)?;
+        let stale = (!own).then(|| scene.clone());
+        let renderer = Renderer::with_tables(device, scene, request, tables, kept)?;
+        let motion = Moving::start(&renderer, movers)?;
+        let mut showing = Self { renderer, stale, motion };
+        showing.pose(showing.renderer.scene().file.animation.frame)?;
+        Ok(showing)
+    }
+
+    /// Shows what `file` says, as far as what is on the device can.
+    ///
+    /// # Errors
+    /// A scene that cannot be had; those of the device. What was shown before is then shown still.
+    pub fn follow(
+        &mut self,
+        file: &SceneFile,
+        (folder, name): (&Path, &str),
+        request: Request,
+        models: &mut Models,
+    ) -> Result<Followed, Error> {
+        let mut file = file.clone();
+        file.camera = self.fitted(&file.camera, request.size)?;
+        if file == self.renderer.scene().file {
+            return Ok(Followed::Already);
+        }
+        if self.renderer.edit_in_place(&file)? {
+            self.pose(file.animation.frame)?;
+            return Ok(Followed::Shown { remade: false });
+        }
+        let scene = Scene::of_file(file, folder, name, models)?;
+        if !self.renderer.tables().may_stand_for(&scene, &request) {
+            return Ok(Followed::Awaited(Box::new(scene)));
+        }
+        let tables = self.renderer.tables().clone();
+        self.show(scene, tables, false)?;
+        Ok(Followed::Shown { remade: true })
+    }
+
+    /// Draws with the scene's own tables, which were baked meanwhile.
+    ///
+    /// # Errors
+    /// Those of the device; motions that cannot be opened.
+    pub fn settle(&mut self, tables: Tables) -> Result<(), Error> {
+        let Some(mut scene) = self.stale.take() else { return Ok(()) };
+        // What was edited in place since.
+        scene.file = self.renderer.scene().file.clone();
+        self.put(scene, tables)
+    }
+
+    /// Shows another scene, with tables that stand for its own unless `own`.
+    ///
+    /// # Errors
+    /// Those of the device; motions that cannot be opened.
+    pub fn show(&mut self, scene: Scene, tables: Tables, own: bool) -> Result<(), Error> {
+        self.stale = (!own).then(|| scene.clone());
+        self.put(scene, tables)
+    }
+
+    /// Whether it counts what is drawn.
+    pub fn counts(&self) -> bool {
+        self.renderer.request().statistics
+    }
+
+    /// A picture of it, and what is known of that.
+    pub fn shown(&self, picture: Picture, (revision, settled): (u64, bool), delay: Duration) -> Shown {
+        let (renderer, scene) = (&self.renderer, self.renderer.scene());
+        let mut stats = renderer.stats().clone();
+        stats.set_gpu_bytes(renderer.device());
+        Shown {
+            camera: fitted(renderer),
+            picture,
+            stats,
+            file: scene.file.clone(),
+            frame_count: self.frame_count(),
+            own_tables: self.stale.is_none(),
+            settled,
+            revision,
+            delay,
+            notes: scene.fabrics.iter().flat_map(|fabric| fabric.notes.clone()).collect(),
+        }
+    }
+
+    fn put(&mut self, scene: Scene, tables: Tables) -> Result<(), Error> {
+        let movers = Movers::open(&scene)?;
+        self.renderer.edit(scene, tables)?;
+        self.motion = Moving::start(&self.renderer, movers)?;
+        self.pose(self.renderer.scene().file.animation.frame)
+    }
+
+    /// Draws with other shaders from now on.
+    ///
+    /// # Errors
+    /// Those of the device, which may find fault with the shaders.
+    pub fn set_shaders(&mut self, shaders: ShaderSet) -> Result<(), Error> {
+        Ok(self.renderer.set_shaders(shaders)?)
+    }
+
+    /// Frames that its motions have; none where nothing moves.
+    pub fn frame_count(&self) -> Option<u64> {
+        self.motion.as_ref().and_then(|motion| motion.movers.frame_count())
+    }
+
+    /// Puts what moves where it is at a time, in frames.
+    fn pose(&mut self, frame: Option<f64>) -> Result<(), Error> {
+        let Some((motion, frame)) = self.motion.as_mut().zip(frame) else { return Ok(()) };
+        if motion.at == Some(frame) || motion.times.send(frame).is_err() {
+            return Ok(());
+        }
+        if let Some(mut posed) = motion.poser.next_frame()? {
+            self.renderer.pose(&mut posed)?;
+            motion.poser.give_back(posed);
+            motion.at = Some(frame);
+        }
+        Ok(())
+    }
+
+    /// The camera with what is left to be fitted fitted to the whole motion, as where it is played.
+    fn fitted(&mut self, camera: &CameraTable, size: [u32; 2]) -> Result<CameraTable, Error> {
+        let Some(motion) = &mut self.motion else { return Ok(camera.clone()) };
+        if let Some((asked, of_size, fitted)) = &motion.fitted
+            && (asked, of_size) == (camera, &size)
+        {
+            return Ok(fitted.clone());
+        }
+        let mut scene = self.renderer.scene().clone();
+        scene.file.camera = camera.clone();
+        motion.movers.fix_camera(&mut scene, size)?;
+        motion.fitted = Some((camera.clone(), size, scene.file.camera.clone()));
+        Ok(scene.file.camera)
+    }
+}
+
+impl Moving {
+    fn start(renderer: &Renderer, movers: Movers) -> Result<Option<Self>, Error> {
+        if movers.0.is_empty() {
+            return Ok(None);
+        }
+        let at_rest = renderer.scene();
+        let for_cameras = Movers::open(at_rest)?;
+        let (times, asked) = channel();
+        let poser = renderer.poser(movers, asked.into_iter());
+        Ok(Some(Self { times, poser, movers: for_cameras, at: None, fitted: None }))
+    }
+}
+
+/// The camera of a renderer with nothing left to be fitted.
+fn fitted(renderer: &Renderer) -> CameraTable {
+    let scene = renderer.scene();
+    let points = scene.fabrics.iter().flat_map(|f| f.hull_points()).map(|p| p - scene.origin_mm);
+    let radius_mm = scene.fabrics.iter().map(|f| f.yarn.outer_radius_mm()).fold(0.0, f64::max);
+    Camera::fitted(&scene.file.camera, renderer.request().size, scene.origin_mm, points, radius_mm)
+}

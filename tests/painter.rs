@@ -1,0 +1,164 @@
+//! The viewer's painter without its window: what it shows, in which order, and that it ends on the picture that
+//! `worsted render` draws.
+#![cfg(feature = "viewer")]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+use worsted::frame::sampling::Sampling;
+use worsted::frame::{Renderer, Request};
+use worsted::io::kept::Kept;
+use worsted::scene::Scene;
+use worsted::viewer::painter::{News, Painter, Shown, Wanted};
+use worsted::vulkan::{Device, DeviceChoice};
+
+#[path = "support/device.rs"]
+mod device;
+
+/// A file of a demo that is small enough to be drawn again and again.
+const SCENE: &str = "models/demo.toml";
+const SIZE: [u32; 2] = [96, 72];
+/// Longer than any picture takes on the slowest machine.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+fn shared() -> &'static Arc<Device> {
+    device::shared(DeviceChoice::Software)
+}
+
+fn wanted(sets: &[&str]) -> Wanted {
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+    Wanted {
+        file: Scene::load(Path::new(SCENE), &sets).unwrap().file,
+        folder: PathBuf::from("models"),
+        name: SCENE.to_owned(),
+        size: SIZE,
+        moving: false,
+        statistics: false,
+        most_samples: 16,
+        shaders: None,
+    }
+}
+
+fn painter() -> Painter {
+    Painter::start(shared().clone(), Kept::NOTHING, || ())
+}
+
+fn next(painter: &Painter) -> Box<Shown> {
+    match painter.news.recv_timeout(PATIENCE).expect("a picture") {
+        News::Picture(shown) => shown,
+        News::Trouble(why) => panic!("{why}"),
+        News::Ended(error) => panic!("{error}"),
+    }
+}
+
+/// Every picture up to the one that nothing better follows.
+fn until_settled(painter: &Painter) -> Vec<Box<Shown>> {
+    let mut all = vec![next(painter)];
+    while !all.last().unwrap().settled {
+        all.push(next(painter));
+    }
+    all
+}
+
+/// What `worsted render` draws.
+fn rendered(sets: &[&str], samples: u32) -> Vec<[u8; 4]> {
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+    let scene = Scene::load(Path::new(SCENE), &sets).unwrap();
+    let sampling = Sampling::new(samples).unwrap();
+    let request = Request { size: SIZE, sampling, statistics: false, profile: false };
+    Renderer::new(shared(), scene, request).unwrap().render(&|_| ()).unwrap().display
+}
+
+#[test]
+fn pictures_are_refined_until_they_are_what_render_draws() {
+    let painter = painter();
+    painter.want(wanted(&[]));
+    let shown = until_settled(&painter);
+    let samples: Vec<_> =
+        shown.iter().map(|shown| (shown.picture.size == SIZE, shown.stats.samples)).collect();
+    assert!(samples.ends_with(&[(true, 4), (true, 16)]), "{samples:?}");
+    assert!(shown.last().unwrap().picture.display == rendered(&[], 16));
+    let camera = &shown.last().unwrap().camera;
+    assert!(camera.distance_mm.is_some() && camera.target_mm.is_some() && camera.pitch_deg.is_some());
+    // Wanting the same again draws it again, and no table is baked twice.
+    painter.want(wanted(&[]));
+    assert!(until_settled(&painter).last().unwrap().picture.display == rendered(&[], 16));
+}
+
+#[test]
+fn an_edit_is_seen_before_its_tables_are_there_and_ends_with_them() {
+    let painter = painter();
+    painter.want(wanted(&[]));
+    until_settled(&painter);
+    let sets = &["yarn.ply_pitch_mm=3.2"];
+    let revision = painter.want(wanted(sets));
+    let shown = until_settled(&painter);
+    assert!(shown.iter().all(|shown| shown.revision == revision));
+    assert!(!shown[0].own_tables && shown.last().unwrap().own_tables);
+    assert!(shown.iter().filter(|shown| !shown.own_tables).all(|shown| shown.stats.samples == 4));
+    assert!(shown.last().unwrap().picture.display == rendered(sets, 16));
+    // Of another shape: nothing stands for it.
+    let sets = &["yarn.ply_count=2"];
+    painter.want(wanted(sets));
+    let shown = until_settled(&painter);
+    assert!(shown.iter().all(|shown| shown.own_tables));
+    assert!(shown.last().unwrap().picture.display == rendered(sets, 16));
+}
+
+#[test]
+fn only_what_was_wanted_last_is_drawn_to_the_end() {
+    let painter = painter();
+    let mut last = 0;
+    for yaw in 0..20 {
+        last = painter.want(wanted(&[&format!("camera.yaw_deg={yaw}")]));
+    }
+    let shown = until_settled(&painter);
+    assert_eq!(shown.last().unwrap().revision, last);
+    assert!(shown.last().unwrap().picture.display == rendered(&["camera.yaw_deg=19"], 16));
+    assert!(shown.iter().filter(|shown| shown.settled).count() == 1);
+}
+
+#[test]
+fn while_something_moves_one_picture_answers_each_wish() {
+    let painter = painter();
+    painter.want(wanted(&[]));
+    until_settled(&painter);
+    for yaw in 1..6 {
+        let moving = Wanted { moving: true, ..wanted(&[&format!("camera.yaw_deg={yaw}")]) };
+        let revision = painter.want(moving);
+        let shown = next(&painter);
+        assert!(shown.revision == revision && !shown.settled && shown.stats.samples == 4);
+        assert_eq!(shown.file.camera.yaw_deg, f64::from(yaw));
+    }
+    assert!(painter.news.recv_timeout(Duration::from_millis(300)).is_err(), "nothing follows by itself");
+}
+
+#[test]
+fn what_cannot_be_had_is_told_and_changes_nothing() {
+    let painter = painter();
+    painter.want(wanted(&[]));
+    until_settled(&painter);
+    let mut impossible = wanted(&[]);
+    impossible.file.fabric[0].model = "nowhere.bcc".into();
+    painter.want(impossible);
+    let told = painter.news.recv_timeout(PATIENCE).unwrap();
+    assert!(matches!(told, News::Trouble(why) if why.contains("nowhere.bcc") && !why.contains('\n')));
+    painter.want(wanted(&["camera.yaw_deg=3"]));
+    assert!(until_settled(&painter).last().unwrap().picture.display == rendered(&["camera.yaw_deg=3"], 16));
+}
+
+#[test]
+fn a_painter_that_is_stopped_leaves_nothing_on_the_device() {
+    let device = {
+        let choice = DeviceChoice::Software;
+        Device::new(&worsted::vulkan::DeviceOptions { choice, ..Default::default() }).unwrap()
+    };
+    let mut painter = Painter::start(device.clone(), Kept::NOTHING, || ());
+    painter.want(wanted(&[]));
+    next(&painter);
+    painter.want(wanted(&["yarn.ply_pitch_mm=3"]));
+    painter.stop();
+    while painter.news.try_recv().is_ok() {}
+    drop(painter);
+    Device::shutdown(device).unwrap();
+}
