@@ -27,14 +27,16 @@ pub struct Buffers<'a> {
 /// What is no glTF 2.0; buffers that are missing or shorter than stated.
 pub fn read<'a>(file: &'a Path, bytes: &[u8]) -> Result<(Document, Buffers<'a>), FileError> {
     check_glb(file, bytes)?;
-    let Gltf { document, blob } = Gltf::from_slice(bytes).map_err(|error| {
+    let wrong = |error: gltf::Error| {
         let place = match &error {
             gltf::Error::Deserialize(error) if error.line() > 0 => Place::Line(error.line() as u64),
             _ => Place::File,
         };
         FileError::new(file, place, format!("expected a glTF 2.0, found: {}", shortened(&error.to_string())))
-    })?;
-    let mut blob = blob;
+    };
+    let Gltf { document, mut blob } = Gltf::from_slice_without_validation(bytes).map_err(wrong)?;
+    check_attributes(file, &document)?;
+    let document = Document::from_json(document.into_json()).map_err(wrong)?;
     let mut all = Vec::new();
     for buffer in document.buffers() {
         let error = |message: String| FileError::new(file, Place::Item("buffer", buffer.index()), message);
@@ -54,6 +56,23 @@ pub fn read<'a>(file: &'a Path, bytes: &[u8]) -> Result<(Document, Buffers<'a>),
         all.push(bytes);
     }
     Ok((document, Buffers { file, bytes: all }))
+}
+
+/// Whether the accessors of all attributes are there, which the crate's own validation follows unchecked.
+fn check_attributes(file: &Path, document: &Document) -> Result<(), FileError> {
+    let json = document.as_json();
+    let count = json.accessors.len();
+    for (index, mesh) in json.meshes.iter().enumerate() {
+        let mut named = mesh.primitives.iter().flat_map(|primitive| primitive.attributes.values());
+        if let Some(missing) = named.find(|accessor| accessor.value() >= count) {
+            let message = format!(
+                "expected an attribute in one of {count} accessors, found accessor {}",
+                missing.value()
+            );
+            return Err(FileError::new(file, Place::Item("mesh", index), message));
+        }
+    }
+    Ok(())
 }
 
 /// Whether the length that a GLB claims is that of a header and no more than there is, which its reader relies on.

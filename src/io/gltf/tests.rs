@@ -124,7 +124,17 @@ type Spoiled = (&'static str, fn(&mut Value), &'static str);
 
 #[test]
 fn what_is_wrong_is_said_with_its_place() {
-    let spoiled: [Spoiled; 14] = [
+    let spoiled: [Spoiled; 16] = [
+        (
+            "attribute",
+            |d| d["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(7),
+            "mesh 0: expected an attribute in one of",
+        ),
+        (
+            "accessors",
+            |d| d["accessors"] = json!([]),
+            "mesh 0: expected an attribute in one of 0 accessors, found accessor 0",
+        ),
         (
             "index",
             |d| d["accessors"][1]["byteOffset"] = json!(60),
