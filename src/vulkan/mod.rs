@@ -21,6 +21,8 @@ mod rendering;
 mod sampler;
 mod select;
 mod shader;
+#[cfg(feature = "viewer")]
+mod swapchain;
 mod timestamps;
 mod transfer;
 mod trim;
@@ -43,5 +45,7 @@ pub use rendering::{ColorTarget, DepthTarget, Rendering};
 pub use sampler::{Sampler, SamplerInfo};
 pub use select::{DeviceChoice, OptionalFeatures};
 pub use shader::{ShaderStage, SpecializationConstants};
+#[cfg(feature = "viewer")]
+pub use swapchain::{Presented, Swapchain, surface_extensions, swapchain_extension};
 pub use timestamps::Taken;
 pub use trim::trimmed;
