@@ -13,6 +13,7 @@ pub mod load;
 pub mod motion;
 pub mod needs;
 pub mod overrides;
+pub mod parameters;
 pub mod shadow;
 pub mod shadow_light;
 pub mod tables;
