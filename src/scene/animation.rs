@@ -1,10 +1,6 @@
 //! Which frames of moving fabrics are shown, and how fast.
 
-use super::keys::KeyError;
 use serde::{Deserialize, Serialize};
-
-/// Most that a frame's number may be, and the speed at which they follow.
-const MOST_FRAMES: f64 = 1e9;
 
 /// How moving fabrics are played. Frames are those of their files, counted from 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -62,17 +58,6 @@ impl AnimationTable {
             |count: &u64| self.repeat || self.frame_of_picture(count - 1) <= frames.saturating_sub(1) as f64;
         let count = (pictures as u64).max(1);
         if fits(&count) { count } else { count - 1 }
-    }
-
-    /// Checks what the types cannot.
-    ///
-    /// # Errors
-    /// A key out of its range.
-    pub fn check(&self) -> Result<(), KeyError> {
-        let range = KeyError::range;
-        range("animation.frame", self.frame.unwrap_or(0.0), 0.0, MOST_FRAMES)?;
-        range("animation.frames_per_second", self.frames_per_second, 0.01, 1e3)?;
-        range("animation.speed", self.speed, 1e-6, 1e6)
     }
 }
 

@@ -3,8 +3,10 @@
 use super::SceneError;
 use super::fiber_table::resolve_fiber;
 use super::file::{FabricTable, SceneFile};
+use super::keys::KeyError;
 use super::models::Models;
 use super::motion::{Motion, world_from_file};
+use super::parameters::check_table;
 use super::yarn_table::resolve_yarn;
 use crate::bsdf::params::FiberParams;
 #[cfg(test)]
@@ -23,6 +25,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::path::Path;
 use std::time::{Duration, Instant};
+use toml::{Table, Value};
 
 /// A loaded fabric.
 #[derive(Clone, Debug)]
@@ -110,9 +113,7 @@ impl Fabric {
             Some(given) => given,
             None => matched_scale(loaded, &preset, &mut notes),
         };
-        if !(1e-9..=1e9).contains(&mm_per_unit) {
-            return Err(value(format!("fabric.mm_per_unit = {mm_per_unit}: allowed is 1e-9 to 1e9")));
-        }
+        check_unit(mm_per_unit).map_err(|error| value(error.to_string()))?;
         let unit = started.elapsed();
         let started = Instant::now();
         let curves = world_curves(loaded, mm_per_unit);
@@ -153,6 +154,12 @@ impl Fabric {
             load: LoadTimes::default(),
         }
     }
+}
+
+/// Checks a unit that may have been worked out, as one that is stated.
+fn check_unit(mm_per_unit: f64) -> Result<(), KeyError> {
+    let given = Table::from_iter([("mm_per_unit".to_owned(), Value::Float(mm_per_unit))]);
+    check_table("fabric", "fabric", &given)
 }
 
 /// Most turns of plies, fibers or migration over one piece of yarn: f32 then still has a twentieth of a radian.

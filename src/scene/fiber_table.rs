@@ -2,8 +2,9 @@
 
 use super::file::SceneFile;
 use super::keys::KeyError;
+use super::parameters::{check_table, of_table};
 use super::tables::{check_each, preset_named, unknown_key};
-use crate::bsdf::params::{FiberParams, NARROWEST_DEG, WIDEST_DEG};
+use crate::bsdf::params::FiberParams;
 use crate::bsdf::presets;
 use toml::{Table, Value};
 
@@ -17,8 +18,8 @@ pub fn resolve_fiber(scene: &Table, fabric: &Table) -> Result<FiberParams, KeyEr
         preset_named("fiber", named, presets::DEFAULT_FIBER, presets::fiber_names(), presets::fiber)?;
     let mut table = Table::try_from(&preset).map_err(|e| KeyError::new("fiber", format!(": {e}")))?;
     for (key, value) in scene.iter().chain(fabric).filter(|(key, _)| !OTHER_KEYS.contains(&key.as_str())) {
-        if !KEYS.contains(&key.as_str()) {
-            return Err(unknown_key("fiber", key, KEYS.into_iter().chain(OTHER_KEYS)));
+        if !keys().any(|known| known == key) {
+            return Err(unknown_key("fiber", key, keys().chain(OTHER_KEYS)));
         }
         table.insert(key.clone(), value.clone());
     }
@@ -26,7 +27,8 @@ pub fn resolve_fiber(scene: &Table, fabric: &Table) -> Result<FiberParams, KeyEr
         let error = KeyError::from_toml(&e);
         KeyError::new(&format!("fiber.{}", error.path), error.message)
     })?;
-    check(&fiber)?;
+    let values = Table::try_from(&fiber).map_err(|e| KeyError::new("fiber", format!(": {e}")))?;
+    check_table("fiber", "fiber", &values)?;
     match fabric.get("color").or(scene.get("color")) {
         None => Ok(fiber),
         Some(color) => dye(&fiber, color, scene.contains_key("c_tt") || fabric.contains_key("c_tt")),
@@ -43,7 +45,8 @@ fn dye(fiber: &FiberParams, color: &Value, has_c_tt: bool) -> Result<FiberParams
     let color: [f64; 3] = color.clone().try_into().map_err(|e: toml::de::Error| {
         KeyError::new("fiber.color", format!(": {}", KeyError::from_toml(&e).message))
     })?;
-    KeyError::rgb("fiber.color", color, 1.0)?;
+    let colors = Table::from_iter([("color".to_owned(), Value::from(color.to_vec()))]);
+    check_table("fiber", "fiber", &colors)?;
     let dyed = fiber.dyed(color);
     let missed = dyed.diffuse().into_iter().zip(color).any(|(found, wanted)| (found - wanted).abs() > 0.01);
     if missed {
@@ -65,23 +68,10 @@ pub fn check_fibers(file: &SceneFile) -> Result<(), (KeyError, Vec<String>)> {
 
 /// What a fiber table may hold beside parameters: the preset, and the colour of the cloth to dye the fiber for.
 const OTHER_KEYS: [&str; 2] = ["preset", "color"];
-/// Every parameter of a fiber, by its name in [`FiberParams`].
-const KEYS: [&str; 8] =
-    ["c_r", "c_tt", "beta_r_deg", "beta_tt_deg", "gamma_tt_deg", "diffuse", "specular", "specular_width_deg"];
 
-fn check(fiber: &FiberParams) -> Result<(), KeyError> {
-    let rgb = |key: &str, rgb: [f64; 3], most: f64| KeyError::rgb(&format!("fiber.{key}"), rgb, most);
-    let width = |key: &str, value: f64, most: f64| {
-        KeyError::range(&format!("fiber.{key}"), value, NARROWEST_DEG, most)
-    };
-    rgb("c_r", fiber.c_r, 1.0)?;
-    rgb("c_tt", fiber.c_tt, 1.0)?;
-    rgb("diffuse", fiber.diffuse.unwrap_or_default(), 1.0)?;
-    rgb("specular", fiber.specular.unwrap_or_default(), 1e3)?;
-    width("beta_r_deg", fiber.beta_r_deg, WIDEST_DEG)?;
-    width("beta_tt_deg", fiber.beta_tt_deg, WIDEST_DEG)?;
-    width("gamma_tt_deg", fiber.gamma_tt_deg, WIDEST_DEG)?;
-    width("specular_width_deg", fiber.specular_width_deg.unwrap_or(NARROWEST_DEG), 90.0)
+/// Every parameter of a fiber, by its name in [`FiberParams`].
+fn keys() -> impl Iterator<Item = &'static str> + Clone {
+    of_table("fiber").map(|parameter| parameter.key).filter(|key| !OTHER_KEYS.contains(key))
 }
 
 #[cfg(test)]
@@ -99,7 +89,7 @@ mod tests {
         fiber.specular = Some([0.1; 3]);
         fiber.specular_width_deg = Some(9.0);
         let table = Table::try_from(&fiber).unwrap();
-        let mut keys = KEYS.to_vec();
+        let mut keys: Vec<_> = keys().collect();
         keys.sort_unstable();
         assert_eq!(table.keys().map(String::as_str).collect::<Vec<_>>(), keys);
     }

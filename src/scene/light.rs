@@ -3,17 +3,17 @@
 
 use super::file::SceneFile;
 use super::keys::KeyError;
+use super::parameters::check_table;
 use crate::math::frame::direction_or;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
+use toml::Table;
 
 /// Most `[[light]]`s of a scene: every fragment looks at each of them.
 pub const MAX_LIGHTS: usize = 256;
 /// Radius of point and spot lights in mm: nearer than this they are as bright as at it, so that a fiber that
 /// touches a light stays finite.
 pub const LIGHT_RADIUS: f64 = 1.0;
-/// Largest component of radiance, irradiance and intensity.
-const MAX_STRENGTH: f64 = 1e6;
 /// Least difference of the halved squared chords of a spot's angles; below it the edge is sharp in f32.
 const SHARPEST_EDGE: f64 = 1e-9;
 
@@ -132,24 +132,15 @@ impl LightTable {
             let message = format!(": a {kind} light has no such key, only {}", keys.join(", "));
             return Err(KeyError::new(&path(key), message));
         }
-        KeyError::range(&path("angular_size_deg"), self.angular_size_deg, 0.0, 60.0)?;
-        let strength = if self.is_local() { "intensity" } else { "irradiance" };
-        KeyError::rgb(&path(strength), self.strength().to_array(), MAX_STRENGTH)?;
-        let direction = self.direction();
-        if !direction.is_finite() || direction.length() < 1e-9 {
-            let message = format!(" = {:?}: allowed is any vector but 0", direction.to_array());
-            return Err(KeyError::new(&path("direction"), message));
-        }
-        if !self.is_local() {
-            return Ok(());
-        }
-        let Some(position) = self.position_mm else {
+        // What the inner angle may be depends on the outer one.
+        let plain = Self { inner_angle_deg: None, ..self.clone() };
+        let plain = Table::try_from(&plain).map_err(|e| KeyError::new("light", format!(": {e}")))?;
+        check_table("light", &format!("light.{index}"), &plain)?;
+        if self.is_local() && self.position_mm.is_none() {
             let message = format!(": expected where the {kind} light is, found nothing");
             return Err(KeyError::new(&path("position_mm"), message));
-        };
-        position.iter().try_for_each(|&c| KeyError::range(&path("position_mm"), c, -1e9, 1e9))?;
+        }
         let [inner, outer] = self.angles_deg();
-        KeyError::range(&path("outer_angle_deg"), outer, 0.01, 90.0)?;
         if !(0.0..outer).contains(&inner) {
             let message = format!(" = {inner}: allowed is 0 to below outer_angle_deg = {outer}");
             return Err(KeyError::new(&path("inner_angle_deg"), message));
@@ -218,9 +209,8 @@ impl AmbientTable {
             let message = ": expected this or ambient.radiance, found both";
             return Err(KeyError::new("ambient.environment", message.into()));
         }
-        KeyError::rgb("ambient.radiance", self.radiance().to_array(), MAX_STRENGTH)?;
-        KeyError::range("ambient.environment_scale", self.environment_scale, 0.0, MAX_STRENGTH)?;
-        KeyError::range("ambient.environment_yaw_deg", self.environment_yaw_deg, -1e6, 1e6)
+        let values = Table::try_from(self).map_err(|e| KeyError::new("ambient", format!(": {e}")))?;
+        check_table("ambient", "ambient", &values)
     }
 }
 

@@ -5,6 +5,7 @@ use super::file::{CameraTable, FabricTable, SceneFile};
 use super::keys::{KeyError, line_at};
 use super::light::check_lights;
 use super::models::Models;
+use super::parameters::{Group, check_table};
 use super::yarn_table::check_yarns;
 use super::{Fabric, Scene, SceneError, overrides};
 use crate::io::curves::CurveSet;
@@ -15,59 +16,42 @@ use crate::knit::stockinette::stockinette;
 use crate::math::bounds::bounds;
 use glam::DVec3;
 use std::path::Path;
-use toml::Table;
+use toml::{Table, Value};
 
 /// Largest scene file read.
 const MAX_SCENE_BYTES: u64 = 1 << 20;
 
 impl SceneFile {
-    /// Checks what the types cannot, but for yarn tables.
+    /// Checks what the types cannot, but for the tables of yarn and fiber, which presets are part of.
     fn validate(&self) -> Result<(), KeyError> {
-        let (rgb, range) = (KeyError::rgb, KeyError::range);
         check_lights(&self.light())?;
         self.ambient.check()?;
-        self.animation.check()?;
-        for fabric in &self.fabric {
-            range("fabric.mm_per_unit", fabric.mm_per_unit.unwrap_or(1.0), 1e-9, 1e9)?;
+        const CHECKED_APART: [Group; 4] = [Group::Yarn, Group::Fiber, Group::Light, Group::Ambient];
+        // The seed may be any, also one that TOML has no room for.
+        let all = Self { seed: 0, ..self.clone() };
+        let all = Table::try_from(&all).map_err(|e| KeyError::new("scene", format!(": {e}")))?;
+        for (key, value) in &all {
+            let tables: Vec<&Table> = match value {
+                Value::Table(table) => vec![table],
+                Value::Array(items) => items.iter().filter_map(Value::as_table).collect(),
+                _ => Vec::new(),
+            };
+            let group = Group::ALL.into_iter().find(|group| group.table() == key);
+            if let Some(group) = group.filter(|group| !CHECKED_APART.contains(group)) {
+                tables.into_iter().try_for_each(|table| check_table(group.table(), key, table))?;
+            }
         }
-        rgb("display.background", self.display.background, 1e6)?;
-        range("display.exposure_stops", self.display.exposure_stops, -30.0, 30.0)?;
-        range("camera.yaw_deg", self.camera.yaw_deg, -1e6, 1e6)?;
-        range("camera.pitch_deg", self.camera.pitch_deg.unwrap_or(0.0), -90.0, 90.0)?;
-        range("camera.fov_y_deg", self.camera.fov_y_deg, 1.0, 170.0)?;
-        range("camera.distance_mm", self.camera.distance_mm.unwrap_or(1.0), 1e-3, 1e9)?;
-        for c in self.camera.target_mm.unwrap_or_default() {
-            range("camera.target_mm", c, -1e9, 1e9)?;
-        }
-        range("quality.subdivision_tolerance_px", self.quality.subdivision_tolerance_px, 1e-3, 100.0)?;
-        range("quality.lod_threshold_samples", self.quality.lod_threshold_samples, 0.01, 1e4)?;
-        range("quality.thin_fiber_samples", self.quality.thin_fiber_samples, 0.01, 10.0)?;
-        range("quality.vertex_shaded_samples", self.quality.vertex_shaded_samples, 0.0, 1e3)?;
-        range("quality.core_visible_share", self.quality.core_visible_share, 0.0, 1.0)?;
-        let rows = self.quality.core_texture_rows;
-        if !(8..=512).contains(&rows) || !rows.is_power_of_two() {
-            let message = format!(" = {rows}: allowed is a power of two from 8 to 512");
-            return Err(KeyError::new("quality.core_texture_rows", message));
-        }
-        range("quality.scattering_entries", f64::from(self.quality.scattering_entries), 4.0, 1024.0)?;
-        range(
-            "quality.self_shadow_texels",
-            f64::from(self.quality.self_shadow_texels.unwrap_or(8)),
-            8.0,
-            512.0,
-        )?;
-        range(
-            "quality.occlusion_texels",
-            f64::from(self.quality.occlusion_texels.unwrap_or(8)),
-            8.0,
-            1024.0,
-        )?;
-        range("shading.extinction_scale", self.shading.extinction_scale, 0.0, 1e3)?;
-        self.shadow.check()?;
-        range("quality.max_subdivisions", f64::from(self.quality.max_subdivisions), 1.0, 64.0)?;
-        // 16 bytes each: below 128 MiB.
-        range("quality.points_per_buffer", f64::from(self.quality.points_per_buffer), 4.0, 8e6)?;
-        range("quality.patches_per_draw", f64::from(self.quality.patches_per_draw.unwrap_or(1)), 1.0, 1e9)
+        Ok(())
+    }
+
+    /// The scene file of these tables, checked but for what its yarn files hold.
+    ///
+    /// # Errors
+    /// Unknown keys, values of the wrong type or out of range: the first of them.
+    pub fn from_table(table: Table) -> Result<Self, KeyError> {
+        let file: Self = table.try_into().map_err(|e| KeyError::from_toml(&e))?;
+        file.check().map_err(|(error, _)| error)?;
+        Ok(file)
     }
 
     /// Checks everything that does not need the yarn files. The error comes with the paths at which its
@@ -101,7 +85,7 @@ impl Scene {
         for assignment in assignments {
             overrides::apply(&mut table, assignment).map_err(value)?;
         }
-        let mut file: SceneFile = table.try_into().map_err(|e| value(KeyError::from_toml(&e).to_string()))?;
+        let mut file = SceneFile::from_table(table).map_err(|error| value(error.to_string()))?;
         if !is_scene {
             let model = path.to_str().ok_or_else(|| value("expected a UTF-8 path".into()))?.to_owned();
             match file.fabric.first_mut() {
@@ -109,14 +93,22 @@ impl Scene {
                 None => file.fabric.push(FabricTable { model, ..Default::default() }),
             }
         }
-        Self::of_file(file, &folder, &name, &mut Models::default())
+        Self::from_file(file, &folder, &name)
     }
 
-    /// The scene that a file says, which may never have been written: `folder` is what its paths are relative to, `name` is
-    /// what errors call it. What `models` has read before is not read again.
+    /// Loads what a checked scene file speaks of; `folder` is what its paths are relative to, and `name` names the scene
+    /// in errors.
     ///
     /// # Errors
-    /// As [`Self::load`].
+    /// One line that names the file, the place, what was expected and found.
+    pub fn from_file(file: SceneFile, folder: &Path, name: &str) -> Result<Self, SceneError> {
+        Self::of_file(file, folder, name, &mut Models::default())
+    }
+
+    /// As [`Self::from_file`]; what `models` has read before is not read again.
+    ///
+    /// # Errors
+    /// As [`Self::from_file`].
     pub fn of_file(
         file: SceneFile,
         folder: &Path,
@@ -124,7 +116,6 @@ impl Scene {
         models: &mut Models,
     ) -> Result<Self, SceneError> {
         let value = |message: String| SceneError::Value { scene: name.to_owned(), message };
-        file.check().map_err(|(error, _)| value(error.to_string()))?;
         if file.fabric.is_empty() {
             return Err(value("expected a [fabric] with a model, found none".into()));
         }

@@ -14,6 +14,7 @@ pub mod models;
 pub mod motion;
 pub mod needs;
 pub mod overrides;
+pub mod parameters;
 pub mod shadow;
 pub mod shadow_light;
 pub mod tables;

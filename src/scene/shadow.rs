@@ -1,7 +1,6 @@
 //! What a light sees: the views from which the shadow map is drawn, fitted to what the camera sees of the cloth.
 
 use super::camera::Camera;
-use super::keys::KeyError;
 use super::light::{LightKind, LightTable};
 use crate::math::bounds::Bounds;
 use crate::math::frame::any_perpendicular;
@@ -31,13 +30,6 @@ pub struct ShadowTable {
 impl Default for ShadowTable {
     fn default() -> Self {
         Self { map: true, inside: true, resolution: 1024 }
-    }
-}
-
-impl ShadowTable {
-    /// Checks what the types cannot.
-    pub(super) fn check(&self) -> Result<(), KeyError> {
-        KeyError::range("shadow.resolution", f64::from(self.resolution), 16.0, 8192.0)
     }
 }
 

@@ -14,6 +14,14 @@ pub struct Parameter {
     pub unit: &'static str,
     /// What it may be.
     pub allowed: Allowed,
+    /// The paper whose letter `symbol` is; empty where there is none.
+    pub paper: &'static str,
+    /// Lowest and highest that a slider offers, within what is allowed: what yarns are made of. A spread's is its mean's.
+    pub usual: (f64, f64),
+    /// Whether a slider's steps are shares of the value.
+    pub logarithmic: bool,
+    /// What it is, in one line.
+    pub about: &'static str,
 }
 
 /// What a parameter may be; bounds belong to the range.
@@ -46,36 +54,121 @@ pub struct ParamError {
 /// Largest length, radius or deviation in mm: a kilometre.
 const FAR: f64 = 1e6;
 
+/// Wu & Yuksel 2019, Sec. 3.1.
+const WU: &str = "Wu & Yuksel 2019";
+/// Zhao et al. 2016.
+const ZHAO: &str = "Zhao et al. 2016";
+
 /// Every yarn parameter, in the order of [`super::params::YarnParams`].
 pub const PARAMETERS: &[Parameter] = &[
-    row("ply_count", "n_ply", "", Allowed::Count(1, 8)),
-    row("fibers_per_ply", "", "", Allowed::Count(1, 2000)),
-    row("yarn_radius_mm", "", "mm", Allowed::Number(0.0, FAR)),
-    row("ply_pitch_mm", "alpha_ply", "mm", Allowed::Pitch(1e-3, 1e9)),
-    row("ply_clockwise", "", "", Allowed::Flag),
-    row("fiber_pitch_mm", "alpha", "mm", Allowed::Pitch(1e-3, 1e9)),
-    row("fiber_clockwise", "", "", Allowed::Flag),
-    row("ellipse_short_mm", "e_N", "mm", Allowed::Number(1e-6, FAR)),
-    row("ellipse_long_mm", "e_B", "mm", Allowed::Number(1e-6, FAR)),
-    row("density_beta", "beta", "", Allowed::Number(0.0, 20.0)),
-    row("density_epsilon", "epsilon", "", Allowed::Number(0.0, 0.5)),
-    row("migration_min", "R_min", "", Allowed::Number(0.0, 1.0)),
-    row("migration_max", "R_max", "", Allowed::Number(0.0, 1.5)),
-    row("migration_rate", "s", "", Allowed::Number(0.0, 100.0)),
-    row("fiber_diameter_um", "", "micrometres", Allowed::Number(1e-3, FAR)),
-    row("loop_density_per_mm", "", "per mm and ply", Allowed::Number(0.0, 1000.0)),
-    row("loop_radius_mm", "r_1", "mm", Allowed::Spread(0.0, FAR)),
-    row("hair_density_per_mm", "", "per mm and ply", Allowed::Number(0.0, 1000.0)),
-    row("hair_length_mm", "z_e", "mm", Allowed::Spread(-FAR, FAR)),
-    row("hair_radius_start_mm", "r_0", "mm", Allowed::Spread(0.0, FAR)),
-    row("hair_radius_gain_mm", "r_e", "mm", Allowed::Spread(0.0, FAR)),
-    row("hair_angle_rad", "p_e", "rad", Allowed::Spread(-1000.0, 1000.0)),
-    row("hair_pitch_mm", "alpha_hair", "mm", Allowed::Pitch(1e-3, 1e9)),
-    row("hair_taper", "", "", Allowed::Number(0.0, 1.0)),
+    row("ply_count", "n_ply", "", Allowed::Count(1, 8))
+        .of(WU)
+        .slide(1.0, 8.0)
+        .about("Plies twisted around each other."),
+    row("fibers_per_ply", "", "", Allowed::Count(1, 2000))
+        .slide_shares(1.0, 400.0)
+        .about("Fibers in each ply."),
+    row("yarn_radius_mm", "2 R_ply", "mm", Allowed::Number(0.0, FAR))
+        .of(WU)
+        .slide(0.0, 2.0)
+        .about("Twice the distance of a ply's centre from the yarn's: not the yarn's outer radius."),
+    row("ply_pitch_mm", "alpha_ply", "mm", Allowed::Pitch(1e-3, 1e9))
+        .of(WU)
+        .slide_shares(0.5, 50.0)
+        .about("Length of yarn over which the plies turn once."),
+    row("ply_clockwise", "", "", Allowed::Flag).about("Whether the plies turn clockwise."),
+    row("fiber_pitch_mm", "alpha", "mm", Allowed::Pitch(1e-3, 1e9))
+        .of(WU)
+        .slide_shares(0.2, 50.0)
+        .about("Length of yarn over which a fiber turns once inside its ply."),
+    row("fiber_clockwise", "", "", Allowed::Flag).about("Whether the fibers turn clockwise."),
+    row("ellipse_short_mm", "e_N", "mm", Allowed::Number(1e-6, FAR))
+        .of(WU)
+        .slide_shares(0.01, 1.0)
+        .about("Half-axis of a ply's cross-section toward the yarn's centre."),
+    row("ellipse_long_mm", "e_B", "mm", Allowed::Number(1e-6, FAR))
+        .of(WU)
+        .slide_shares(0.01, 1.0)
+        .about("Half-axis of a ply's cross-section around the yarn's centre."),
+    row("density_beta", "beta", "", Allowed::Number(0.0, 20.0))
+        .of(ZHAO)
+        .slide(0.0, 5.0)
+        .about("How much denser fibers lie inside a ply than at its surface: the exponent of their density."),
+    row("density_epsilon", "epsilon", "", Allowed::Number(0.0, 0.5))
+        .of(ZHAO)
+        .slide(0.0, 0.5)
+        .about("Floor of the fibers' density."),
+    row("migration_min", "R_min", "", Allowed::Number(0.0, 1.0))
+        .of(WU)
+        .slide(0.0, 1.0)
+        .about("Smallest share of its radius that a migrating fiber keeps."),
+    row("migration_max", "R_max", "", Allowed::Number(0.0, 1.5))
+        .of(WU)
+        .slide(0.0, 1.5)
+        .about("Largest share of its radius that a migrating fiber reaches; at least migration_min."),
+    row("migration_rate", "s", "", Allowed::Number(0.0, 100.0))
+        .of(WU)
+        .slide(0.0, 5.0)
+        .about("Migrations in and out for each turn of a fiber."),
+    row("fiber_diameter_um", "", "micrometres", Allowed::Number(1e-3, FAR))
+        .slide_shares(5.0, 100.0)
+        .about("Diameter of one fiber."),
+    row("loop_density_per_mm", "", "per mm and ply", Allowed::Number(0.0, 1000.0))
+        .slide(0.0, 20.0)
+        .about("Loops: fibers pulled out of the ply over one migration."),
+    row("loop_radius_mm", "r_1", "mm", Allowed::Spread(0.0, FAR))
+        .of(ZHAO)
+        .slide(0.0, 1.0)
+        .about("Farthest distance of a loop from its ply's centre."),
+    row("hair_density_per_mm", "", "per mm and ply", Allowed::Number(0.0, 1000.0))
+        .slide(0.0, 40.0)
+        .about("Hairs: fibers with an open end."),
+    row("hair_length_mm", "z_e", "mm", Allowed::Spread(-FAR, FAR))
+        .of(ZHAO)
+        .slide(-2.0, 20.0)
+        .about("How far a hair runs along the yarn, from where it leaves the ply to its tip."),
+    row("hair_radius_start_mm", "r_0", "mm", Allowed::Spread(0.0, FAR))
+        .of(ZHAO)
+        .slide(0.0, 1.0)
+        .about("Distance from the ply's centre at which a hair leaves the ply."),
+    row("hair_radius_gain_mm", "r_e", "mm", Allowed::Spread(0.0, FAR))
+        .of(ZHAO)
+        .slide(0.0, 5.0)
+        .about("How much farther out a hair's tip is than its start."),
+    row("hair_angle_rad", "p_e", "rad", Allowed::Spread(-1000.0, 1000.0))
+        .of(ZHAO)
+        .slide(-3.0, 3.0)
+        .about("How far a hair turns around its ply from start to tip."),
+    row("hair_pitch_mm", "alpha_hair", "mm", Allowed::Pitch(1e-3, 1e9))
+        .of(WU)
+        .slide_shares(0.5, 50.0)
+        .about("Length over which a hair turns once around its ply, in place of hair_angle_rad."),
+    row("hair_taper", "", "", Allowed::Number(0.0, 1.0))
+        .slide(0.0, 1.0)
+        .about("Share of a hair's length over which it thins out to its tip."),
 ];
 
 const fn row(key: &'static str, symbol: &'static str, unit: &'static str, allowed: Allowed) -> Parameter {
-    Parameter { key, symbol, unit, allowed }
+    let (paper, usual, logarithmic, about) = ("", (0.0, 1.0), false, "");
+    Parameter { key, symbol, unit, allowed, paper, usual, logarithmic, about }
+}
+
+impl Parameter {
+    const fn of(self, paper: &'static str) -> Self {
+        Self { paper, ..self }
+    }
+
+    const fn slide(self, low: f64, high: f64) -> Self {
+        Self { usual: (low, high), ..self }
+    }
+
+    const fn slide_shares(self, low: f64, high: f64) -> Self {
+        Self { usual: (low, high), logarithmic: true, ..self }
+    }
+
+    const fn about(self, about: &'static str) -> Self {
+        Self { about, ..self }
+    }
 }
 
 /// The parameter of that key, or `None`.
