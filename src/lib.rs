@@ -49,5 +49,7 @@ pub mod reference;
 pub mod scene;
 pub mod shaders;
 pub mod stress;
+#[cfg(feature = "viewer")]
+pub mod viewer;
 pub mod vulkan;
 pub mod yarn;
