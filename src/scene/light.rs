@@ -55,7 +55,8 @@ pub enum LightKind {
 }
 
 impl LightKind {
-    fn name(self) -> &'static str {
+    /// Its name in scene files.
+    pub fn name(self) -> &'static str {
         match self {
             Self::Directional => "directional",
             Self::Point => "point",
@@ -63,8 +64,8 @@ impl LightKind {
         }
     }
 
-    /// The keys of this kind besides `kind`.
-    fn keys(self) -> &'static [&'static str] {
+    /// The keys of this kind besides `kind` and `angular_size_deg`.
+    pub fn keys(self) -> &'static [&'static str] {
         match self {
             Self::Directional => &["direction", "irradiance"],
             Self::Point => &["position_mm", "intensity"],

@@ -170,8 +170,11 @@ impl Scene {
     }
 }
 
-/// Reads a scene file and checks it as it stands, so that an error has its line.
-fn read_table(path: &Path) -> Result<Table, SceneError> {
+/// Reads a scene file's text and checks it as it stands, so that an error has its line.
+///
+/// # Errors
+/// Files that cannot be read, are too large, or are wrong.
+pub fn read_scene(path: &Path) -> Result<String, SceneError> {
     let size = std::fs::metadata(path).map_err(|e| FileError::io(path, "read", &e))?.len();
     if size > MAX_SCENE_BYTES {
         let message = format!("expected a scene file of at most {MAX_SCENE_BYTES} bytes, found {size}");
@@ -187,7 +190,12 @@ fn read_table(path: &Path) -> Result<Table, SceneError> {
         let place = KeyError::line(&text, &paths).map_or(Place::File, Place::Line);
         FileError::new(path, place, error.to_string())
     })?;
-    Ok(toml::from_str::<Table>(&text).map_err(at_line)?)
+    Ok(text)
+}
+
+fn read_table(path: &Path) -> Result<Table, SceneError> {
+    let wrong = |e: toml::de::Error| FileError::new(path, Place::File, KeyError::from_toml(&e).to_string());
+    Ok(toml::from_str(&read_scene(path)?).map_err(wrong)?)
 }
 
 /// Half the diagonal of the box around all fabrics, in mm, up to which f32 places fibers around its centre to a

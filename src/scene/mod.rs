@@ -2,6 +2,7 @@
 
 pub mod animation;
 pub mod camera;
+pub mod effective;
 pub mod fabric;
 pub mod features;
 pub mod fiber_table;
