@@ -6,6 +6,7 @@ use crate::io::yarn_file::{excerpt, read_file_bytes};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use gltf::buffer::Source;
+use gltf::json::validation::Checked;
 use gltf::{Document, Gltf};
 use std::path::{Path, PathBuf};
 
@@ -36,6 +37,7 @@ pub fn read<'a>(file: &'a Path, bytes: &[u8]) -> Result<(Document, Buffers<'a>),
     };
     let Gltf { document, mut blob } = Gltf::from_slice_without_validation(bytes).map_err(wrong)?;
     check_attributes(file, &document)?;
+    check_animations(file, &document)?;
     let document = Document::from_json(document.into_json()).map_err(wrong)?;
     let mut all = Vec::new();
     for buffer in document.buffers() {
@@ -70,6 +72,38 @@ fn check_attributes(file: &Path, document: &Document) -> Result<(), FileError> {
                 missing.value()
             );
             return Err(FileError::new(file, Place::Item("mesh", index), message));
+        }
+    }
+    Ok(())
+}
+
+/// Whether what animations name is there and known: the crate's own validation does not look at their channels.
+fn check_animations(file: &Path, document: &Document) -> Result<(), FileError> {
+    let json = document.as_json();
+    for (index, animation) in json.animations.iter().enumerate() {
+        let wrong = |what: String| FileError::new(file, Place::Item("animation", index), what);
+        for (number, channel) in animation.channels.iter().enumerate() {
+            let (sampler, node) = (channel.sampler.value(), channel.target.node.value());
+            if sampler >= animation.samplers.len() || node >= json.nodes.len() {
+                let (samplers, nodes) = (animation.samplers.len(), json.nodes.len());
+                return Err(wrong(format!(
+                    "channel {number}: expected one of {samplers} samplers and {nodes} nodes, found {sampler} and {node}"
+                )));
+            }
+            if matches!(channel.target.path, Checked::Invalid) {
+                let expected = "translation, rotation, scale or weights";
+                return Err(wrong(format!("channel {number}: expected a path of {expected}, found another")));
+            }
+        }
+        for (number, sampler) in animation.samplers.iter().enumerate() {
+            let accessors = [sampler.input.value(), sampler.output.value()];
+            let known = !matches!(sampler.interpolation, Checked::Invalid);
+            if !known || accessors.iter().any(|accessor| *accessor >= json.accessors.len()) {
+                let count = json.accessors.len();
+                return Err(wrong(format!(
+                    "sampler {number}: expected LINEAR, STEP or CUBICSPLINE between two of {count} accessors, found others"
+                )));
+            }
         }
     }
     Ok(())

@@ -124,7 +124,27 @@ type Spoiled = (&'static str, fn(&mut Value), &'static str);
 
 #[test]
 fn what_is_wrong_is_said_with_its_place() {
-    let spoiled: [Spoiled; 16] = [
+    let spoiled: [Spoiled; 20] = [
+        (
+            "path",
+            |d| d["animations"][0]["channels"][0]["target"]["path"] = json!("weight"),
+            "animation 0: channel 0: expected a path of translation",
+        ),
+        (
+            "sampler",
+            |d| d["animations"][0]["channels"][0]["sampler"] = json!(9),
+            "animation 0: channel 0: expected one of",
+        ),
+        (
+            "node",
+            |d| d["animations"][0]["channels"][0]["target"]["node"] = json!(9),
+            "animation 0: channel 0: expected one of",
+        ),
+        (
+            "interpolation",
+            |d| d["animations"][0]["samplers"][0]["interpolation"] = json!("CUBIC"),
+            "animation 0: sampler 0: expected LINEAR",
+        ),
         (
             "attribute",
             |d| d["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(7),
