@@ -31,7 +31,7 @@ layout(location = 4) centroid out vec4 fragment_rates;    // of the first three 
 layout(location = 5) centroid out vec3 fragment_place;    // from_yarn along side and toward, level
 layout(location = 6) flat out uvec3 fragment_core;        // ply, what a debug view shows, piece of yarn
 layout(location = 7) noperspective out float fragment_across; // as a share of the ellipse
-layout(location = 9) noperspective out vec4 fragment_motion;  // of the layers, as passes/fibers.geom has them
+layout(location = 9) out vec4 fragment_motion;  // of the layers, as passes/fibers.geom has them
 layout(location = 10) flat out uint fragment_curve;
 
 // Across the strip, as shares of its half-width; the arch's height is sqrt(1 - across^2). A ply that is small in

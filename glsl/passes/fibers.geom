@@ -37,7 +37,7 @@ layout(location = 7) centroid out vec3 fragment_binormal;
 layout(location = 8) centroid out vec3 fragment_radiance;     // where it is shaded at its vertices
 
 // Of the layers. Differences of what is seen, not places: those of thin triangles have no digits to lose.
-layout(location = 9) noperspective out vec4 fragment_motion;  // to the frame before, and to the frame after
+layout(location = 9) out vec4 fragment_motion;  // to the frame before, and to the frame after: passes/moved.glsl
 layout(location = 10) flat out uint fragment_curve;
 
 // Which end of the line comes first along the yarn is the driver's choice.

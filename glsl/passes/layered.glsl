@@ -8,7 +8,7 @@ layout(push_constant) uniform Constants {
     uint fabric;
 };
 
-layout(location = 9) noperspective in vec4 fragment_motion;
+layout(location = 9) in vec4 fragment_motion;  // passes/moved.glsl
 layout(location = 10) flat in uint fragment_curve;
 
 // Bits of the motion to the frame before and to the frame after, or where that was not asked for, the ids.
@@ -20,7 +20,7 @@ void write_layers() {
         // What stands still moves by nothing.
         first_layer = uvec4(0u);
         if (NEIGHBOURS) {
-            first_layer = floatBitsToUint(fragment_motion);
+            first_layer = floatBitsToUint(fragment_motion * gl_FragCoord.w);
         }
     }
     if (ID_LAYER) {

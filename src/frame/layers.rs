@@ -105,3 +105,63 @@ impl Renderer {
         Ok(Some(Layers { motion, ids: pass.read_ids()? }))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::mover::Movers;
+    use crate::scene::Scene;
+
+    /// A yarn of 5 frames.
+    fn movers(sets: &[&str]) -> (tempfile::TempDir, Movers) {
+        let folder = tempfile::tempdir().unwrap();
+        let yarn = "v -6 0 0\nv -2 1 0\nv 2 -1 0\nv 6 0 0\nl 1 2 3 4\n";
+        std::fs::write(folder.path().join("yarn.obj"), yarn).unwrap();
+        let frames = (0..5).flat_map(|frame| {
+            let [x, y] = [frame as f32, 0.1 * frame as f32];
+            [-6.0 + x, y, 0.0, -2.0 + x, 1.0, 0.0, 2.0 + x, -1.0, y, 6.0 + x, 0.0, 0.0]
+        });
+        let bytes: Vec<u8> = frames.flat_map(f32::to_le_bytes).collect();
+        std::fs::write(folder.path().join("frames.f32"), bytes).unwrap();
+        let motion = format!("fabric.motion={}", folder.path().join("frames.f32").display());
+        let sets: Vec<String> =
+            [&["fabric.mm_per_unit=1", &motion], sets].concat().iter().map(|s| s.to_string()).collect();
+        let movers = Movers::open(&Scene::load(&folder.path().join("yarn.obj"), &sets).unwrap()).unwrap();
+        (folder, movers)
+    }
+
+    #[test]
+    fn poses_are_those_of_their_times_and_in_sequence_none_is_worked_out_twice() {
+        let (_folder, mut movers) = movers(&[]);
+        let mut neighbours = Neighbours::new(1.0);
+        let mover = &mut movers.0[0];
+        let mut last: Option<[Arc<Pose>; 3]> = None;
+        for frame in 0..5 {
+            let found = neighbours.poses(0, mover, f64::from(frame)).unwrap();
+            for (pose, time) in found.iter().zip([(frame - 1).max(0), frame, (frame + 1).min(4)]) {
+                assert_eq!(**pose, mover.pose_at(f64::from(time)).unwrap(), "frame {frame}");
+            }
+            if let Some([_, now, after]) = last {
+                assert!(Arc::ptr_eq(&now, &found[0]) && Arc::ptr_eq(&after, &found[1]), "frame {frame}");
+            }
+            assert!(neighbours.held[0].len() <= HELD);
+            last = Some(found);
+        }
+        let elsewhere = neighbours.poses(0, mover, 1.5).unwrap();
+        assert_eq!(*elsewhere[0], mover.pose_at(0.5).unwrap());
+    }
+
+    #[test]
+    fn times_beside_one_keep_to_the_motions_own_rule() {
+        let times = |sets: &[&str], frame: f64, step: f64| {
+            let (_folder, movers) = movers(sets);
+            [-step, step].map(|step| movers.0[0].time_beside(frame, step))
+        };
+        assert_eq!(times(&[], 0.0, 1.0), [0.0, 1.0]);
+        assert_eq!(times(&[], 4.0, 0.5), [3.5, 4.0]);
+        assert_eq!(times(&[], 1.0, 9.0), [0.0, 4.0]);
+        assert_eq!(times(&["animation.repeat=true"], 0.0, 1.0), [4.0, 1.0]);
+        assert_eq!(times(&["animation.repeat=true"], 4.5, 1.0), [3.5, 5.5]);
+        assert_eq!(times(&["animation.repeat=true"], 1.0, 12.0), [4.0, 13.0]);
+    }
+}

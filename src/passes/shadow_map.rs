@@ -78,7 +78,8 @@ pub struct ShadowMapPass {
     views: Buffer,
     frame_set: Option<DescriptorSet>,
     ribbons: Vec<Ribbons>,
-    pipelines: HashMap<Basis, Pipeline>,
+    /// By how control points are read, and by what set 1 binds.
+    pipelines: HashMap<(Basis, Vec<u32>), Pipeline>,
     corners: u32,
 }
 
@@ -100,11 +101,14 @@ impl ShadowMapPass {
         sets: [&DescriptorSet; 2],
         pieces: u32,
     ) -> Result<(), VulkanError> {
-        let pipeline = match self.pipelines.get(&features.basis) {
+        // A pipeline takes sets of its own layouts alone.
+        let bindings = layouts[1].bindings().iter().map(|binding| binding.binding).collect();
+        let key = (features.basis, bindings);
+        let pipeline = match self.pipelines.get(&key) {
             Some(pipeline) => pipeline.clone(),
             None => pipelines.timed(|| pipeline(pipelines, features, layouts))?,
         };
-        self.pipelines.insert(features.basis, pipeline.clone());
+        self.pipelines.insert(key, pipeline.clone());
         self.frame_set = Some(sets[0].clone());
         self.ribbons.push(Ribbons { pipeline, fabric: sets[1].clone(), pieces });
         Ok(())
