@@ -4,6 +4,7 @@ mod bake;
 mod cloth;
 mod edit;
 mod keeping;
+mod layers;
 pub mod lighting;
 pub mod moving;
 pub mod packing;
@@ -18,8 +19,10 @@ pub mod upload;
 use crate::gpu_types::{Frame, Statistics, TUBE_CORNERS};
 use crate::graph::{Graph, Pass};
 use crate::io::kept::Kept;
+use crate::io::layers::Layers;
 use crate::passes::fiber_sets::FrameBuffers;
 use crate::passes::fibers::FibersPass;
+use crate::passes::layers::LayersPass;
 use crate::passes::resolve::ResolvePass;
 use crate::passes::shadow_map::{ShadowMap, ShadowMapPass};
 use crate::passes::targets::Targets;
@@ -29,13 +32,12 @@ use crate::scene::Scene;
 use crate::scene::camera::Camera;
 use crate::scene::needs::{Need, any_needs};
 use crate::shaders::ShaderSet;
-use crate::vulkan::{Buffer, Device, ImageState, MemoryKind, Taken, VulkanError, vk};
+use crate::vulkan::{Buffer, Device, MemoryKind, Taken, VulkanError, vk};
 use crate::yarn::table::fiber_table;
 pub use bake::check_tables;
 use cloth::Cloth;
 use keeping::KeptPipelines;
 use lighting::{LightRoom, light_scale, lights_that_reach};
-use plan::Planned;
 use sampling::Sampling;
 use stats::Stats;
 use std::collections::{BTreeMap, HashMap};
@@ -65,6 +67,8 @@ pub struct Picture {
     /// sRGB as shown on a display, over the scene's background; without one, rgb is that of the yarn alone and
     /// alpha its coverage, not multiplied in.
     pub display: Vec<[u8; 4]>,
+    /// What the scene asks for besides.
+    pub layers: Option<Layers>,
 }
 
 /// Everything a scene needs on the device.
@@ -88,6 +92,7 @@ pub struct Renderer {
     fibers: FibersPass,
     shaders: ShaderSet,
     tables: Tables,
+    layers: Option<LayersPass>,
     resolve: ResolvePass,
     tonemap: TonemapPass,
     pipelines: KeptPipelines,
@@ -168,6 +173,7 @@ impl Renderer {
         let map = || ShadowMap::new(device, scene.file.shadow.resolution, light_room.views);
         let map = any_needs(&features, Need::ShadowMap).then(map).transpose()?;
 
+        let mut layers = LayersPass::new(building, &frame, &features, request.size)?;
         let buffers = FrameBuffers {
             frame: frame.clone(),
             statistics: statistics.clone(),
@@ -195,6 +201,7 @@ impl Renderer {
                 cross_section: &fiber_table(&fabric.yarn, scene.file.seed),
                 bakes: &tables.bakes[index],
                 skies: tables.skies.as_ref().map(|skies| &skies[index][..]),
+                neighbours: features.needs(Need::Neighbours),
             };
             let started = Instant::now();
             let uploaded = upload::fabric_buffers(device, &scene, fabric, &baked, first_piece)?;
@@ -205,6 +212,9 @@ impl Renderer {
                 let read_by = fibers.layouts(parts.len()).zip(fibers.sets(parts.len()));
                 if let Some((pass, (layouts, sets))) = shadow_map.as_mut().zip(read_by) {
                     pass.add_fabric(building, &features, &layouts, sets, pieces)?;
+                }
+                if let Some((pass, (layouts, sets))) = layers.as_mut().zip(read_by) {
+                    pass.add_fabric(index, &features, layouts, sets);
                 }
                 parts.push((index, pieces));
                 first_piece += pieces;
@@ -234,6 +244,7 @@ impl Renderer {
             fibers,
             shaders,
             tables,
+            layers,
             pipelines,
             stats,
         })
@@ -313,23 +324,11 @@ impl Renderer {
                 self.stats.set_counts(statistics.read_staged()?, unseen);
             }
         }
+        taken += self.draw_layers(&camera, self.request.profile.then_some(&mut passes))?;
         self.stats.add_frame(taken, passes);
         let picture = self.read_picture()?;
         self.stats.inspect(&picture.linear, light_scale);
         Ok(Some(picture))
-    }
-
-    /// Decides on the draws of a picture and returns how many pieces of yarn are in none of them.
-    fn plan(&mut self, camera: &Camera) -> Result<u64, VulkanError> {
-        let scene = &self.scene;
-        let planned = Planned::new(scene, camera, &self.request, self.device.is_cpu());
-        let parts = &self.parts;
-        self.fibers.plan(|part, strands, manner| planned.draws(parts[part], strands, manner))?;
-        let left_out = || scene.fabrics.iter().enumerate().filter(|(index, _)| planned.unseen(*index));
-        self.stats.add_left_out_of_frame(left_out().map(|(index, fabric)| {
-            (format!("fabric {index} ({})", fabric.name), "all of it is outside the picture".to_owned())
-        }));
-        Ok(left_out().map(|(_, fabric)| fabric.strands.pieces.len() as u64).sum())
     }
 
     /// Draws jittered frame `index` of `count` and adds it to the picture; none if `goes_on` says to stop.
@@ -354,14 +353,6 @@ impl Renderer {
             finish.push(self.tonemap.pass(&self.targets));
         }
         Ok(Some(taken + run(&mut self.graph, &self.device, &finish, timings)?))
-    }
-
-    fn read_picture(&self) -> Result<Picture, VulkanError> {
-        Ok(Picture {
-            size: self.request.size,
-            linear: self.targets.picture.read(ImageState::STORAGE_COMPUTE)?,
-            display: self.targets.display.read(ImageState::STORAGE_COMPUTE)?,
-        })
     }
 }
 

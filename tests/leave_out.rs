@@ -129,6 +129,34 @@ const SCENES: &[With] = &[
         left_out: Some("flyaways"),
         ..NOTHING
     },
+    With {
+        name: "a layer of ids",
+        sets: &["layers.id=true"],
+        left_out: Some("id_layer"),
+        added: &["image id layer", "image layer depth", "pipeline layers"],
+        ..NOTHING
+    },
+    With {
+        name: "a layer of motion",
+        sets: &["layers.motion=true"],
+        left_out: Some("motion_layer"),
+        added: &["image layer depth", "image motion layer", "pipeline layers"],
+        ..NOTHING
+    },
+    With {
+        name: "a layer of motion of yarn that moves",
+        sets: &["layers.motion=true", "fabric.motion='frames.f32'"],
+        left_out: Some("motion_layer"),
+        added: &[
+            "buffer control points after",
+            "buffer control points before",
+            "image layer depth",
+            "image motion layer",
+            "pipeline layers",
+        ],
+        bindings: [0, 2],
+        ..NOTHING
+    },
 ];
 
 /// How many objects of each kind and name are alive.
@@ -177,6 +205,9 @@ fn model() -> (tempfile::TempDir, std::path::PathBuf) {
     let path = folder.path().join("yarn.toml");
     let yarn = "v -6 0 0\nv -2 1 0\nv 2 -1 0\nv 6 0 0\nl 1 2 3 4\n";
     std::fs::write(folder.path().join("yarn.obj"), yarn).expect("written");
+    let frames: [f32; 12] = [-6.0, 0.0, 0.0, -2.0, 1.0, 0.0, 2.0, -1.0, 0.0, 6.0, 0.0, 0.0];
+    std::fs::write(folder.path().join("frames.f32"), frames.map(f32::to_le_bytes).as_flattened())
+        .expect("written");
     std::fs::write(&path, "[fabric]\nmodel = 'yarn.obj'\nmm_per_unit = 1.0\n").expect("written");
     (folder, path)
 }

@@ -12,6 +12,7 @@ use worsted::frame::sampling::Sampling;
 use worsted::frame::{Renderer, Request};
 use worsted::io::bcc::write_bcc;
 use worsted::io::curves::CurveSet;
+use worsted::io::layers::Layers;
 use worsted::knit::params::KnitParams;
 use worsted::knit::stockinette::stockinette;
 use worsted::math::rng::Rng;
@@ -60,8 +61,8 @@ fn renderer(scene: &Scene) -> (Renderer, Movers) {
     (Renderer::new(device, scene, request).unwrap(), movers)
 }
 
-/// Pictures of some times, in that order, by one renderer.
-fn played(scene: &Scene, times: &[f64]) -> Vec<Vec<[f32; 4]>> {
+/// Pictures of some times, in that order, by one renderer: light and layers.
+fn played(scene: &Scene, times: &[f64]) -> Vec<(Vec<[f32; 4]>, Option<Layers>)> {
     let (mut renderer, movers) = renderer(scene);
     let all = times.to_vec();
     let mut poser = renderer.poser(movers, all.into_iter());
@@ -70,7 +71,8 @@ fn played(scene: &Scene, times: &[f64]) -> Vec<Vec<[f32; 4]>> {
         assert_eq!(posed.frame, times[pictures.len()]);
         renderer.pose(&mut posed).unwrap();
         poser.give_back(posed);
-        pictures.push(renderer.render(&|_| ()).unwrap().linear);
+        let picture = renderer.render(&|_| ()).unwrap();
+        pictures.push((picture.linear, picture.layers));
     }
     device::shared(DeviceChoice::Software).check_validation().unwrap();
     assert_eq!(pictures.len(), times.len());
@@ -80,13 +82,19 @@ fn played(scene: &Scene, times: &[f64]) -> Vec<Vec<[f32; 4]>> {
 /// In parts of few points too, for each part has buffers of its own.
 #[test]
 fn frames_in_any_order_are_the_frames_in_sequence_bit_for_bit() {
-    for sets in [&[][..], &["quality.points_per_buffer=90", "animation.interpolation=catmull_rom"]] {
+    for sets in [
+        &[][..],
+        &["quality.points_per_buffer=90", "animation.interpolation=catmull_rom"],
+        &["layers.motion=true", "layers.id=true", "animation.speed=0.5"],
+        &["layers.motion=true", "quality.points_per_buffer=90", "animation.repeat=true"],
+    ] {
         let (_folder, scene) = moving(sets);
         let times: Vec<f64> = (0..11).map(|i| 0.5 * f64::from(i)).collect();
         let sequence = played(&scene, &times);
         for (i, picture) in sequence.iter().enumerate() {
-            assert!(picture.iter().any(|pixel| pixel[3] > 0.0), "picture {i} is empty");
-            assert!(sequence[..i].iter().all(|other| other != picture), "picture {i} shows another time");
+            assert_eq!(picture.1.is_some(), scene.file.layers.any());
+            assert!(picture.0.iter().any(|pixel| pixel[3] > 0.0), "picture {i} is empty");
+            assert!(sequence[..i].iter().all(|other| other.0 != picture.0), "picture {i} shows another time");
         }
         let mut rng = Rng::new(11, &[]);
         let order: Vec<usize> = (0..24).map(|_| (rng.uniform() * times.len() as f64) as usize).collect();
@@ -106,7 +114,7 @@ fn at_rest_nothing_changes() {
     let (mut unmoved, _) = renderer(&scene);
     let expected = unmoved.render(&|_| ()).unwrap().linear;
     // Frame 0 is the model itself as f32, which is what the file holds too.
-    assert!(played(&scene, &[3.0, 0.0])[1] == expected);
+    assert!(played(&scene, &[3.0, 0.0])[1].0 == expected);
     drop(folder);
 }
 

@@ -32,4 +32,8 @@ layout(std430, set = 1, binding = 10) readonly buffer SkyBlock { uvec2 skies[]; 
 
 layout(std430, set = 1, binding = 11) readonly buffer CurveBlock { Curve curves[]; };
 
+// Where the frames before and after have the control points: src/frame/layers.rs.
+layout(std430, set = 1, binding = 12) readonly buffer BeforeBlock { ControlPoint points_before[]; };
+layout(std430, set = 1, binding = 13) readonly buffer AfterBlock { ControlPoint points_after[]; };
+
 #endif

@@ -2,6 +2,7 @@
 // Widens a line of core fiber into a strip that is arched toward the viewer, as its surface is.
 #extension GL_GOOGLE_include_directive : require
 #include "bindings.glsl"
+#include "moved.glsl"
 #include "../yarn/core.glsl"
 
 layout(lines) in;
@@ -14,6 +15,13 @@ layout(location = 3) in vec4 section[];
 layout(location = 4) in vec4 place[];
 layout(location = 5) in uvec3 core[];
 layout(location = 6) in vec3 toward_world[];
+layout(location = 9) in vec3 position_before[];
+layout(location = 10) in vec3 side_before[];
+layout(location = 11) in vec3 toward_before[];
+layout(location = 12) in vec3 position_after[];
+layout(location = 13) in vec3 side_after[];
+layout(location = 14) in vec3 toward_after[];
+layout(location = 15) in uint curve[];
 
 layout(location = 0) centroid out vec3 fragment_position;
 layout(location = 1) centroid out vec3 fragment_tangent;
@@ -23,6 +31,8 @@ layout(location = 4) centroid out vec4 fragment_rates;    // of the first three 
 layout(location = 5) centroid out vec3 fragment_place;    // from_yarn along side and toward, level
 layout(location = 6) flat out uvec3 fragment_core;        // ply, what a debug view shows, piece of yarn
 layout(location = 7) noperspective out float fragment_across; // as a share of the ellipse
+layout(location = 9) out vec4 fragment_motion;  // of the layers, as passes/fibers.geom has them
+layout(location = 10) flat out uint fragment_curve;
 
 // Across the strip, as shares of its half-width; the arch's height is sqrt(1 - across^2). A ply that is small in
 // the picture gets half as many.
@@ -33,8 +43,8 @@ void emit(int end, float across, vec4 seen, vec4 rates) {
     float thickness = core_thickness(place[end].z, yarn);
     float v = across * thickness;
     float height = yarn.core_height * thickness * sqrt(max(0.0, 1.0 - across * across));
-    fragment_position = position_world[end] + seen.x * v * side_world[end]
-                      + (seen.y * height + seen.z * v) * toward_world[end];
+    vec2 offset_mm = vec2(seen.x * v, seen.y * height + seen.z * v);  // along side and toward
+    fragment_position = position_world[end] + offset_mm.x * side_world[end] + offset_mm.y * toward_world[end];
     fragment_tangent = tangent_world[end];
     fragment_side = side_world[end];
     fragment_across = v;
@@ -43,6 +53,14 @@ void emit(int end, float across, vec4 seen, vec4 rates) {
     fragment_place = place[end].xyz;
     fragment_core = core[end];
     gl_Position = frame.clip_from_world * vec4(fragment_position, 1.0);
+    if (MOTION_LAYER && NEIGHBOURS) {
+        vec3 before = position_before[end] + offset_mm.x * side_before[end] + offset_mm.y * toward_before[end];
+        vec3 after = position_after[end] + offset_mm.x * side_after[end] + offset_mm.y * toward_after[end];
+        fragment_motion = motion_of_corner(gl_Position, before, after);
+    }
+    if (ID_LAYER) {
+        fragment_curve = curve[end];
+    }
     EmitVertex();
 }
 

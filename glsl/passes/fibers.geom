@@ -2,6 +2,7 @@
 // Widens a line of fiber into a camera-facing strip, by its true width in world space.
 #extension GL_GOOGLE_include_directive : require
 #include "bindings.glsl"
+#include "moved.glsl"
 #include "../lib/strip.glsl"
 #include "../yarn/breaks.glsl"
 #include "varying.glsl"
@@ -18,6 +19,11 @@ layout(location = 5) in vec3 ply_normal[];
 layout(location = 6) in vec3 ply_binormal[];
 layout(location = 7) in uint piece[];
 layout(location = 8) in vec3 vertex_radiance[];
+layout(location = 9) in vec3 position_before[];
+layout(location = 10) in vec3 side_before[];
+layout(location = 11) in vec3 position_after[];
+layout(location = 12) in vec3 side_after[];
+layout(location = 13) in uint curve[];
 
 // Centroid: a fiber is often thinner than a pixel, whose centre then lies outside its triangles.
 layout(location = 0) centroid out vec3 fragment_position;
@@ -29,6 +35,10 @@ layout(location = 5) noperspective out float fragment_across; // -1 to 1
 layout(location = 6) centroid out vec3 fragment_normal;       // of the ply, and its binormal
 layout(location = 7) centroid out vec3 fragment_binormal;
 layout(location = 8) centroid out vec3 fragment_radiance;     // where it is shaded at its vertices
+
+// Of the layers. Differences of what is seen, not places: those of thin triangles have no digits to lose.
+layout(location = 9) out vec4 fragment_motion;  // to the frame before, and to the frame after: passes/moved.glsl
+layout(location = 10) flat out uint fragment_curve;
 
 // Which end of the line comes first along the yarn is the driver's choice.
 int first_end() {
@@ -49,7 +59,8 @@ void main() {
         vec3 to_eye = direction_or(frame.eye_world.xyz - position_world[end], vec3(0.0, 0.0, 1.0));
         vec3 side = strip_side(tangent_world[end].xyz, to_eye);
         for (int edge = -1; edge <= 1; edge += 2) {
-            vec3 corner = position_world[end] + float(edge) * tangent_world[end].w * yarn.fiber_radius * side;
+            float across_mm = float(edge) * tangent_world[end].w * yarn.fiber_radius;
+            vec3 corner = position_world[end] + across_mm * side;
             fragment_position = corner;
             fragment_tangent = tangent_world[end].xyz;
             fragment_side = side;
@@ -68,6 +79,14 @@ void main() {
                 fragment_radiance = vertex_radiance[end];
             }
             gl_Position = frame.clip_from_world * vec4(corner, 1.0);
+            if (MOTION_LAYER && NEIGHBOURS) {
+                vec3 before = position_before[end] + across_mm * side_before[end];
+                vec3 after = position_after[end] + across_mm * side_after[end];
+                fragment_motion = motion_of_corner(gl_Position, before, after);
+            }
+            if (ID_LAYER) {
+                fragment_curve = curve[end];
+            }
             EmitVertex();
         }
     }

@@ -5,6 +5,7 @@
 #include "../yarn/fetch.glsl"
 #include "../yarn/turning.glsl"
 #include "../shared/debug_views.glsl"
+#include "../lib/motion.glsl"
 #include "level.glsl"
 #include "shown.glsl"
 #include "surface.glsl"
@@ -35,6 +36,11 @@ layout(location = 5) out vec3 ply_normal;
 layout(location = 6) out vec3 ply_binormal;
 layout(location = 7) out uint piece;
 layout(location = 8) out vec3 vertex_radiance;
+layout(location = 9) out vec3 position_before;  // in the frame before, with what the strip's side has turned to there
+layout(location = 10) out vec3 side_before;
+layout(location = 11) out vec3 position_after;  // in the frame after
+layout(location = 12) out vec3 side_after;
+layout(location = 13) out uint curve;
 
 uint drawn_fiber;
 
@@ -88,6 +94,28 @@ vec3 radiance_at(FiberPoint f, vec2 place) {
     return shade(strand, to_eye);
 }
 
+// The same place of the fiber where the frame before or after has it.
+FiberPoint neighbour_point(Segment segment, float t, vec2 beside, bool after) {
+    Span span = fetch_neighbour_span(segment.first_point, after);
+    if (FLYAWAYS) {
+        StrandVertex vertex;
+        return fetch_fiber_vertex(segment, span, drawn_fiber, t, beside, vertex);
+    }
+    Period period;
+    return fetch_fiber_at(segment, span, drawn_fiber, t, period);
+}
+
+void place_in_neighbours(Segment segment, FiberPoint f, float t, vec2 beside) {
+    vec3 to_eye = direction_or(frame.eye_world.xyz - f.position, vec3(0.0, 0.0, 1.0));
+    vec3 side = strip_side(f.tangent, to_eye);
+    FiberPoint before = neighbour_point(segment, t, beside, false);
+    FiberPoint after = neighbour_point(segment, t, beside, true);
+    position_before = before.position;
+    side_before = carried_vector(side, f.ply_normal, f.ply_binormal, before.ply_normal, before.ply_binormal);
+    position_after = after.position;
+    side_after = carried_vector(side, f.ply_normal, f.ply_binormal, after.ply_normal, after.ply_binormal);
+}
+
 void main() {
     // TessCoord is 16.16 fixed point on some drivers: round, never floor.
     uint line = uint(gl_TessCoord.y * float(patch_fibers) + 0.5);
@@ -134,5 +162,11 @@ void main() {
     }
     if (AT_VERTICES) {
         vertex_radiance = radiance_at(f, section);
+    }
+    if (MOTION_LAYER && NEIGHBOURS) {
+        place_in_neighbours(segment, f, t, FLYAWAYS ? cuts_beside(place, t) : vec2(0.0));
+    }
+    if (ID_LAYER) {
+        curve = segment.curve;
     }
 }

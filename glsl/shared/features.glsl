@@ -28,5 +28,8 @@ layout(constant_id = 22) const bool VERTEX_SHADING = true; // fibers that are th
 layout(constant_id = 23) const bool AT_VERTICES = false; // this pipeline draws those, and no others
 layout(constant_id = 24) const bool CHORD_SHADOW = false; // light is dimmed in the yarn ply by ply, not by place
 layout(constant_id = 25) const bool SWIFT_TURNS = true; // pieces of yarn may turn so fast that cuts must follow
+layout(constant_id = 26) const bool MOTION_LAYER = false; // in place of light: how what is seen moves
+layout(constant_id = 27) const bool ID_LAYER = false;    // and, or, which yarn it is
+layout(constant_id = 28) const bool NEIGHBOURS = false;  // the fabric lies elsewhere in the frames before and after
 
 #endif

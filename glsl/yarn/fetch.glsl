@@ -34,6 +34,26 @@ Span fetch_span(uint first_point) {
     return span;
 }
 
+// The control point in the frame after the one that is drawn, or before it.
+ControlPoint fetch_neighbour(uint index, bool after) {
+    if (after) {
+        return points_after[index];
+    }
+    return points_before[index];
+}
+
+// The same piece where one of these frames has it.
+Span fetch_neighbour_span(uint first_point, bool after) {
+    Span span;
+    for (uint k = 0; k < 4; ++k) {
+        span.bezier[k] = fetch_neighbour(first_point + k, after).position;
+    }
+    bezier_from_basis(span.bezier, BASIS);
+    span.normal_start = unit_from_octahedral(fetch_neighbour(first_point + KNOT_START, after).normal_octahedral);
+    span.normal_end = unit_from_octahedral(fetch_neighbour(first_point + KNOT_END, after).normal_octahedral);
+    return span;
+}
+
 // A fiber at t of the piece, in the given shape.
 FiberPoint fetch_fiber_point(Segment segment, Span span, Fiber fiber, float t, FiberShape shape) {
     YarnPoint yarn_at = yarn_point(span.bezier, span.normal_start, span.normal_end, t);

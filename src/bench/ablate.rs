@@ -16,7 +16,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 const YARN: &str = "worsted_3ply";
-/// What a scene has that leaves nothing out but a picture of the sky, which is a file: a soft light and a point light.
+/// What a scene has that leaves nothing out but a picture of the sky, which is a file, and layers, which are no part of the
+/// picture (docs/animation.md has what they cost): a soft light and a point light.
 const EVERYTHING: &[&str] = &["light=[{direction=[0.6, -0.7, -0.4], angular_size_deg=2}, \
      {kind='point', position_mm=[40, 60, 80], intensity=[0.02, 0.02, 0.02]}]"];
 
@@ -247,7 +248,7 @@ mod tests {
 
     #[test]
     fn everything_is_there_and_each_omission_leaves_out_what_it_says() {
-        assert_eq!(left_out(&[], true), ["environment"]);
+        assert_eq!(left_out(&[], true), ["environment", "id_layer", "motion_layer"]);
         for omission in OMISSIONS {
             let out = left_out(omission.sets, !omission.sets.is_empty());
             assert!(out.contains(&omission.name), "{}: {out:?}", omission.name);

@@ -1,7 +1,7 @@
 //! What can be typed.
 
 use super::bench_args::{Bench, Budget};
-use super::play_args::Play;
+use super::play_args::{LayersArgs, Play};
 use crate::frame::sampling::Sampling;
 use crate::knit::params::KnitParams;
 use crate::probe;
@@ -130,6 +130,9 @@ pub struct Render {
     /// Samples per pixel: 1, 4, 16, 36, 64 ...
     #[arg(long, default_value = "4")]
     pub samples: Sampling,
+    /// Beside the light.
+    #[command(flatten)]
+    pub layers: LayersArgs,
     /// Draw this many times and report the spread of times.
     #[arg(long, default_value_t = 1, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub repeat: u32,

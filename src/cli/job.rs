@@ -3,7 +3,7 @@
 use super::args::{Common, Render, SceneArgs, TimeArgs, ViewArgs};
 use super::bench_args::CacheArgs;
 use super::budget::BudgetJob;
-use super::output::Output;
+use super::output::{Output, check_layers};
 use crate::cli::say::tell;
 use crate::error::Error;
 use crate::frame::{Request, check_tables};
@@ -60,8 +60,10 @@ impl RenderJob {
             statistics: args.stats.is_some() || args.explain,
             profile: args.profile,
         };
-        let sets = assignments(&args.scene, args.time.frame, args.view.camera.as_deref())?;
+        let mut sets: Vec<String> = args.layers.assignments().collect();
+        sets.extend(assignments(&args.scene, args.time.frame, args.view.camera.as_deref())?);
         let scene = Scene::load(&args.scene.path, &sets)?;
+        check_layers(&scene.file.layers, outputs.iter().map(|output| output.format))?;
         check_tables(&scene)?;
         let budget = BudgetJob::new(&args.budget)?;
         if budget.is_some() && scene.file.animation.frame.is_some() {

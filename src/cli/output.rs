@@ -3,8 +3,10 @@
 use crate::cli::say::say;
 use crate::error::Error;
 use crate::frame::Picture;
+use crate::io::layers::write_layers;
 use crate::io::picture::{DisplayImage, LinearImage, write_exr, write_png};
 use crate::io::whole::{check_target, write_whole};
+use crate::scene::file::LayersTable;
 use std::path::{Path, PathBuf};
 
 /// What a picture file holds.
@@ -14,6 +16,21 @@ pub enum PictureFormat {
     Png,
     /// Linear radiance, f32, alpha = the yarn's coverage.
     Exr,
+}
+
+/// That a scene's layers have a file to go to.
+///
+/// # Errors
+/// Layers, and none but `.png` pictures.
+pub fn check_layers(
+    layers: &LayersTable,
+    formats: impl IntoIterator<Item = PictureFormat>,
+) -> Result<(), Error> {
+    if layers.any() && formats.into_iter().all(|format| format != PictureFormat::Exr) {
+        let message = "--layers: expected an .exr picture to hold them, found none but .png";
+        return Err(Error::Arguments(message.to_owned()));
+    }
+    Ok(())
 }
 
 /// One picture file to write.
@@ -56,8 +73,11 @@ impl Output {
                 write_png(&self.path, &DisplayImage { width, height, pixels })?;
             }
             PictureFormat::Exr => {
-                let pixels = picture.linear.clone();
-                write_exr(&self.path, &LinearImage { width, height, pixels })?;
+                let image = LinearImage { width, height, pixels: picture.linear.clone() };
+                match &picture.layers {
+                    None => write_exr(&self.path, &image)?,
+                    Some(layers) => write_layers(&self.path, &image, layers)?,
+                }
             }
         }
         Ok(())

@@ -4,7 +4,7 @@ use super::args::Common;
 use super::encode::Film;
 use super::job::{assignments, kept, parse_size, report_notes};
 use super::open_device;
-use super::output::{Output, PictureFormat, write_text};
+use super::output::{Output, PictureFormat, check_layers, write_text};
 use super::play_args::Play;
 use super::play_record::Record;
 use super::progress::{set_share, share_bar};
@@ -61,8 +61,10 @@ impl PlayJob {
             statistics: args.stats.is_some(),
             profile: false,
         };
-        let sets = assignments(&args.scene, None, args.view.camera.as_deref())?;
+        let mut sets: Vec<String> = args.layers.assignments().collect();
+        sets.extend(assignments(&args.scene, None, args.view.camera.as_deref())?);
         let mut scene = Scene::load(&args.scene.path, &sets)?;
+        check_layers(&scene.file.layers, outputs.iter().map(|(_, format)| *format))?;
         check_tables(&scene)?;
         let mut movers = Movers::open(&scene)?;
         let frames = movers.frame_count().ok_or_else(|| {

@@ -3,8 +3,36 @@
 use super::args::{SceneArgs, ViewArgs};
 use super::bench_args::CacheArgs;
 use crate::frame::sampling::Sampling;
-use clap::Args as ClapArgs;
+use clap::{Args as ClapArgs, ValueEnum};
 use std::path::PathBuf;
+
+/// What an EXR holds besides light.
+#[derive(Debug, ClapArgs)]
+pub struct LayersArgs {
+    /// Layers of the `.exr` pictures besides their light, as `layers.motion` and `layers.id`: how far what a pixel's centre
+    /// sees moves to the picture before and after, and which fabric and yarn it is.
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "motion,id")]
+    pub layers: Vec<LayerName>,
+}
+
+impl LayersArgs {
+    /// As assignments to scene keys.
+    pub fn assignments(&self) -> impl Iterator<Item = String> {
+        self.layers.iter().map(|layer| match layer {
+            LayerName::Motion => "layers.motion=true".to_owned(),
+            LayerName::Id => "layers.id=true".to_owned(),
+        })
+    }
+}
+
+/// One of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum LayerName {
+    /// Motion in pixels: `forward.u`, `forward.v`, `backward.u`, `backward.v`.
+    Motion,
+    /// Numbers from 1: `id.fabric`, `id.curve`.
+    Id,
+}
 
 /// `worsted play`.
 #[derive(Debug, ClapArgs)]
@@ -26,6 +54,9 @@ pub struct Play {
     /// Samples per pixel: 1, 4, 16, 36, 64 ...
     #[arg(long, default_value = "4")]
     pub samples: Sampling,
+    /// Beside the light.
+    #[command(flatten)]
+    pub layers: LayersArgs,
     /// Write statistics of every picture as JSON; `-` for standard output.
     #[arg(long, value_name = "FILE")]
     pub stats: Option<PathBuf>,

@@ -90,6 +90,9 @@ impl Renderer {
             self.targets = Targets::new(&self.device, request.size, samples)?;
             self.resolve = ResolvePass::new(building, &self.targets)?;
             self.tonemap = TonemapPass::new(building, &self.targets, &self.scene.file.display)?;
+            if let Some(layers) = &mut self.layers {
+                layers.resize(request.size)?;
+            }
         }
         self.request = request;
         self.stats.set_request(&request);

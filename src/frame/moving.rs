@@ -3,6 +3,7 @@
 
 use super::Renderer;
 use super::cloth::Cloth;
+use super::layers::Neighbours;
 use super::packing;
 use super::tables::Skies;
 use super::upload::packed_points;
@@ -16,6 +17,7 @@ use glam::{DQuat, DVec3};
 use half::f16;
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -36,6 +38,8 @@ struct MovingPart {
     points: Range<usize>,
     control_points: Buffer,
     skies: Option<Buffer>,
+    /// Where the frames before and after have the points.
+    neighbours: Option<[Buffer; 2]>,
 }
 
 impl Moving {
@@ -56,6 +60,7 @@ impl Moving {
             points: part.points,
             control_points: buffers.control_points.clone(),
             skies: buffers.skies.clone(),
+            neighbours: buffers.neighbours.clone(),
         }));
     }
 
@@ -73,6 +78,8 @@ struct PosedFabric {
     normals: Vec<DVec3>,
     control_points: Vec<ControlPoint>,
     skies: Option<Vec<[f16; 4]>>,
+    /// Where it is before and after.
+    neighbours: Option<[Vec<ControlPoint>; 2]>,
 }
 
 /// A frame of all fabrics that move, ready to be uploaded.
@@ -92,17 +99,27 @@ impl PosedFrame {
         movers: &mut Movers,
         origin_mm: DVec3,
         skies: Option<&Skies>,
+        mut neighbours: Option<&mut Neighbours>,
         frame: f64,
     ) -> Result<(), SceneError> {
         let started = Instant::now();
         self.frame = frame;
         self.fabrics.resize_with(movers.0.len(), PosedFabric::default);
-        for (mover, fabric) in movers.0.iter_mut().zip(&mut self.fabrics) {
-            let Pose { points, normals, tangents, rotations } = mover.pose_at(frame)?;
+        for (index, (mover, fabric)) in movers.0.iter_mut().zip(&mut self.fabrics).enumerate() {
+            let packed = |p: &Pose| packed_points(&p.points, &p.normals, &p.tangents, origin_mm);
+            let pose = match &mut neighbours {
+                None => Arc::new(mover.pose_at(frame)?),
+                Some(neighbours) => {
+                    let [before, pose, after] = neighbours.poses(index, mover, frame)?;
+                    fabric.neighbours = Some([packed(&before), packed(&after)]);
+                    pose
+                }
+            };
             fabric.fabric = mover.fabric;
-            fabric.control_points = packed_points(&points, &normals, &tangents, origin_mm);
+            fabric.control_points = packed(&pose);
             let of_fabric = skies.map(|skies| &skies[mover.fabric]);
-            fabric.skies = of_fabric.map(|skies| turned_skies(skies, &rotations));
+            fabric.skies = of_fabric.map(|skies| turned_skies(skies, &pose.rotations));
+            let Pose { points, normals, .. } = Arc::unwrap_or_clone(pose);
             (fabric.points, fabric.normals) = (points, normals);
         }
         self.taken = started.elapsed();
@@ -133,6 +150,7 @@ impl Poser {
         mut movers: Movers,
         origin_mm: DVec3,
         skies: Option<Skies>,
+        mut neighbours: Option<Neighbours>,
         frames: impl Iterator<Item = f64> + Send + 'static,
     ) -> Self {
         let (ready_in, ready) = sync_channel(SETS);
@@ -144,7 +162,8 @@ impl Poser {
         let work = move || {
             for frame in frames {
                 let Ok(mut set) = empty_out.recv() else { break };
-                let filled = set.fill(&mut movers, origin_mm, skies.as_ref(), frame).map(|()| set);
+                let filled = set.fill(&mut movers, origin_mm, skies.as_ref(), neighbours.as_mut(), frame);
+                let filled = filled.map(|()| set);
                 let failed = filled.is_err();
                 if ready_in.send(filled).is_err() || failed {
                     break;
@@ -203,7 +222,9 @@ impl Drop for Poser {
 impl Renderer {
     /// Starts to work out these frames of the movers of the renderer's scene, in this order.
     pub fn poser(&self, movers: Movers, frames: impl Iterator<Item = f64> + Send + 'static) -> Poser {
-        Poser::start(movers, self.scene.origin_mm, self.moving.skies.clone(), frames)
+        let file = &self.scene.file;
+        let neighbours = file.layers.motion.then(|| Neighbours::new(file.animation.speed));
+        Poser::start(movers, self.scene.origin_mm, self.moving.skies.clone(), neighbours, frames)
     }
 
     /// Puts the fabrics that move where a frame has them, for the pictures from now on, and returns the bytes that went
@@ -222,6 +243,12 @@ impl Renderer {
                     let skies = &skies[part.points.clone()];
                     buffer.replace(skies)?;
                     bytes += size_of_val(skies) as u64;
+                }
+                let neighbours = part.neighbours.iter().flatten().zip(fabric.neighbours.iter().flatten());
+                for (buffer, points) in neighbours {
+                    let points = &points[part.points.clone()];
+                    buffer.replace(points)?;
+                    bytes += size_of_val(points) as u64;
                 }
             }
             let strands = &mut self.scene.fabrics[fabric.fabric].strands;

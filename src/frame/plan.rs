@@ -1,11 +1,12 @@
 //! What of a fabric a picture may need at most, before the device decides for each piece of yarn.
 
-use super::Request;
+use super::{Renderer, Request};
 use crate::passes::draw_plan::DrawPlan;
 use crate::passes::strand_pipeline::{Manner, Strands};
 use crate::scene::camera::Camera;
 use crate::scene::features::Features;
 use crate::scene::{Fabric, Scene};
+use crate::vulkan::VulkanError;
 use crate::yarn::detail::{share_kept, slots_kept};
 use crate::yarn::flyaway::Flyaways;
 use crate::yarn::level::outside_frustum;
@@ -15,6 +16,23 @@ use rayon::prelude::*;
 /// More than half of `VERTEX_SHADED_FADE` in `glsl/passes/level.glsl`, by which pieces differ in the width at which
 /// they change from one way to be shaded to the other.
 const FADE: f64 = 0.25;
+
+impl Renderer {
+    /// Decides on the draws of a picture and returns how many pieces of yarn are in none of them.
+    pub(super) fn plan(&mut self, camera: &Camera) -> Result<u64, VulkanError> {
+        let scene = &self.scene;
+        let planned = Planned::new(scene, camera, &self.request, self.device.is_cpu());
+        let parts = &self.parts;
+        let draws = |part: usize, strands, manner| planned.draws(parts[part], strands, manner);
+        self.fibers.plan(draws)?;
+        self.layers.as_mut().map_or(Ok(()), |layers| layers.plan(draws))?;
+        let left_out = || scene.fabrics.iter().enumerate().filter(|(index, _)| planned.unseen(*index));
+        self.stats.add_left_out_of_frame(left_out().map(|(index, fabric)| {
+            (format!("fabric {index} ({})", fabric.name), "all of it is outside the picture".to_owned())
+        }));
+        Ok(left_out().map(|(_, fabric)| fabric.strands.pieces.len() as u64).sum())
+    }
+}
 
 /// What a picture shows of one fabric.
 struct Seen {

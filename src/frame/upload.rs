@@ -188,9 +188,13 @@ fn rgb(rgb: [f64; 3]) -> [f32; 4] {
     DVec3::from_array(rgb).extend(1.0).as_vec4().to_array()
 }
 
-fn columns(m: DMat4) -> [[f32; 4]; 4] {
+/// A matrix as the device has it, column by column.
+pub fn columns(m: DMat4) -> [[f32; 4]; 4] {
     m.as_mat4().to_cols_array_2d()
 }
+
+/// Names of the buffers of control points in the frames before and after.
+const NEIGHBOURS: [&str; 2] = ["control points before", "control points after"];
 
 /// What is uploaded with one fabric.
 #[derive(Clone, Copy)]
@@ -201,6 +205,8 @@ pub struct FabricBakes<'a> {
     pub bakes: &'a Bakes,
     /// What is open of the sky above each of its control points, where something reads it.
     pub skies: Option<&'a [[f16; 4]]>,
+    /// Whether something reads where the frames before and after have it.
+    pub neighbours: bool,
 }
 
 /// Uploads a fabric whose pieces come after `first_piece` others, once: what was baked and nothing in its place where
@@ -227,12 +233,17 @@ pub fn fabric_buffers(
         let yarn = yarn(fabric, quality, baked.bakes, counts, scene.file.seed);
         let sky = |skies: &[[f16; 4]]| Buffer::upload(device, "skies", usage, &skies[part.points.clone()]);
         let pieces = packing::pieces(strands, part);
+        // Until it is posed it stands still.
+        let still = |name| Buffer::upload(device, name, usage, &points[part.points.clone()]);
+        let [before, after] = NEIGHBOURS;
+        let neighbours = || Ok::<_, VulkanError>([still(before)?, still(after)?]);
         let buffers = FabricBuffers {
             control_points: Buffer::upload(device, "control points", usage, &points[part.points.clone()])?,
             pieces: Buffer::upload(device, "yarn pieces", usage, &pieces)?,
             curves: Buffer::upload(device, "curves", usage, &packing::curves(strands, part))?,
             yarn: Buffer::upload(device, "yarn parameters", usage, &[yarn])?,
             skies: baked.skies.map(sky).transpose()?,
+            neighbours: baked.neighbours.then(neighbours).transpose()?,
             shared: shared.clone(),
         };
         Ok((buffers, count))

@@ -13,6 +13,7 @@ pub mod frames;
 pub mod gltf;
 pub mod gltf_write;
 pub mod kept;
+pub mod layers;
 pub mod measured;
 pub mod numbered;
 pub mod obj;

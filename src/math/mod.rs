@@ -8,6 +8,7 @@ pub mod curve;
 pub mod digest;
 pub mod frame;
 pub mod hash;
+pub mod motion;
 pub mod quadrature;
 pub mod rng;
 pub mod rotation;

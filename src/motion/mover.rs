@@ -112,6 +112,17 @@ impl Mover {
         })
     }
 
+    /// The time `step` frames from one at which the motion can be seen: those that repeat go around, others stay where they
+    /// begin and end.
+    pub fn time_beside(&self, frame: f64, step: f64) -> f64 {
+        let (time, count) = (frame + step, self.frame_count() as f64);
+        match self.repeat {
+            true if time < 0.0 => time.rem_euclid(count),
+            true => time,
+            false => time.clamp(0.0, count - 1.0),
+        }
+    }
+
     /// The frame before one, where motions repeat.
     fn earlier(&self, frame: u64) -> u64 {
         frame.checked_sub(1).unwrap_or(self.frame_count() - 1)

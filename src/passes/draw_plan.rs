@@ -1,6 +1,7 @@
 //! How a fabric's patches are cut into draw calls.
 
 use crate::gpu_types::FIBERS_PER_PATCH;
+use std::ops::Range;
 
 /// lavapipe silently draws a wrong picture when one draw evaluates more tessellation vertices.
 pub const CPU_MAX_EVALUATED_VERTICES: u32 = 65_536;
@@ -87,6 +88,33 @@ impl DrawPlan {
     }
 }
 
+/// In how many parts draws are handed to the device, so that none has many more than `curves` fiber curves: between
+/// them a user hears of progress, and a device's watchdog is content.
+pub fn part_count<'a>(plans: impl Iterator<Item = &'a DrawPlan> + Clone, curves: u64) -> usize {
+    let total: u64 = plans.clone().map(DrawPlan::curves).sum();
+    let draws: usize = plans.map(DrawPlan::draw_count).sum();
+    usize::try_from(total.div_ceil(curves.max(1))).unwrap_or(usize::MAX).clamp(1, draws.max(1))
+}
+
+/// The `part`-th of `parts` equal parts of all draws: the places of the plans that have any in it, and which.
+pub fn part_draws<'a>(
+    plans: impl Iterator<Item = &'a DrawPlan> + Clone,
+    part: usize,
+    parts: usize,
+) -> impl Iterator<Item = (usize, Range<usize>)> {
+    let draws: usize = plans.clone().map(DrawPlan::draw_count).sum();
+    let range = draws * part / parts..draws * (part + 1) / parts;
+    let mut before = 0;
+    let of_plan = move |(place, plan): (usize, &DrawPlan)| {
+        let count = plan.draw_count();
+        let start = range.start.clamp(before, before + count) - before;
+        let end = range.end.clamp(before, before + count) - before;
+        before += count;
+        (start < end).then_some((place, start..end))
+    };
+    plans.enumerate().filter_map(of_plan)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,6 +147,24 @@ mod tests {
         }
         assert_eq!(plan.draw_count(), plan.draws().count());
         assert!(drawn.iter().all(|&n| n == 1), "{patches} {fibers} {subdivisions} {asked:?}");
+    }
+
+    #[test]
+    fn parts_hold_every_draw_once_and_in_order() {
+        let plans = [(0, 3), (40, 200), (0, 1), (7, 64), (16, 64)]
+            .map(|(n, f)| DrawPlan::new(n, f, 8, true, Some(3)));
+        let all: Vec<(usize, usize)> = (0..plans.len())
+            .flat_map(|place| (0..plans[place].draw_count()).map(move |draw| (place, draw)))
+            .collect();
+        assert_eq!(part_count(plans.iter(), u64::MAX), 1);
+        assert_eq!(part_count(plans.iter(), 0), all.len());
+        for parts in [1, 2, 5, all.len()] {
+            let found: Vec<(usize, usize)> = (0..parts)
+                .flat_map(|part| part_draws(plans.iter(), part, parts).collect::<Vec<_>>())
+                .flat_map(|(place, range)| range.map(move |draw| (place, draw)))
+                .collect();
+            assert_eq!(found, all, "{parts} parts");
+        }
     }
 
     #[test]

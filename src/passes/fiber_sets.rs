@@ -27,7 +27,7 @@ const FRAME_BINDINGS: [(u32, vk::DescriptorType, Option<Need>); 5] = [
     (4, TEXTURE, Some(Need::ShadowMap)),
 ];
 /// Set 1.
-const FABRIC_BINDINGS: [(u32, vk::DescriptorType, Option<Need>); 12] = [
+const FABRIC_BINDINGS: [(u32, vk::DescriptorType, Option<Need>); 14] = [
     (0, STORAGE, None),
     (1, STORAGE, None),
     (2, STORAGE, None),
@@ -40,6 +40,8 @@ const FABRIC_BINDINGS: [(u32, vk::DescriptorType, Option<Need>); 12] = [
     (9, TEXTURE, Some(Need::OcclusionTexture)),
     (10, STORAGE, Some(Need::Skies)),
     (11, STORAGE, None),
+    (12, STORAGE, Some(Need::Neighbours)),
+    (13, STORAGE, Some(Need::Neighbours)),
 ];
 
 /// What the shaders of one fabric, or of a part of it, read: set 1.
@@ -54,6 +56,8 @@ pub struct FabricBuffers {
     pub yarn: Buffer,
     /// What is open of the sky at each control point: four halves.
     pub skies: Option<Buffer>,
+    /// The control points in the frame before, and in the frame after.
+    pub neighbours: Option<[Buffer; 2]>,
     /// What all parts of a fabric read.
     pub shared: SharedBuffers,
 }
@@ -174,6 +178,8 @@ impl FabricSamplers {
         }
         let tables = [(7, &shared.scattering), (10, &buffers.skies)];
         resources.extend(tables.into_iter().filter_map(|(i, b)| Some((i, Resource::Storage(b.as_ref()?)))));
+        let neighbours = (12..).zip(buffers.neighbours.iter().flatten());
+        resources.extend(neighbours.map(|(binding, points)| (binding, Resource::Storage(points))));
         for (binding, image) in [(8, &shared.self_shadow), (9, &shared.occlusion)] {
             let read = image.as_ref().zip(self.table.as_ref());
             resources.extend(read.map(|(image, table)| (binding, Resource::Sampled(image.view(), table))));

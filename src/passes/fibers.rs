@@ -1,6 +1,6 @@
 //! Expands yarn into fibers and shades them: vertex, tessellation, geometry and fragment stages.
 
-use super::draw_plan::DrawPlan;
+use super::draw_plan::{DrawPlan, part_count, part_draws};
 use super::fiber_sets::{FabricBuffers, FabricSamplers, FrameBuffers, fabric_layout, frame_set};
 use super::pipelines::Pipelines;
 use super::strand_pipeline::{Manner, Strands, strand_pipeline};
@@ -12,7 +12,6 @@ use crate::vulkan::{
     Access, ColorTarget, Commands, DepthTarget, DescriptorLayout, DescriptorSet, Image, ImageState, Pipeline,
     Rendering, VulkanError, vk,
 };
-use std::ops::Range;
 use std::sync::Arc;
 
 /// One pipeline's draws of one fabric.
@@ -133,17 +132,13 @@ impl FibersPass {
         Ok(())
     }
 
-    /// How many passes a frame is drawn in, so that none draws many more than `curves` fiber curves:
-    /// between them a user hears of progress, and a device's watchdog is content.
+    /// How many passes a frame is drawn in, so that none draws many more than `curves` fiber curves.
     pub fn parts(&self, curves: u64) -> usize {
-        let total: u64 = self.draws.iter().map(|draw| draw.plan.curves()).sum();
-        usize::try_from(total.div_ceil(curves.max(1)))
-            .unwrap_or(usize::MAX)
-            .clamp(1, self.draw_count().max(1))
+        part_count(self.plans(), curves)
     }
 
-    fn draw_count(&self) -> usize {
-        self.draws.iter().map(|draw| draw.plan.draw_count()).sum()
+    fn plans(&self) -> impl Iterator<Item = &DrawPlan> + Clone {
+        self.draws.iter().map(|draw| &draw.plan)
     }
 
     /// Draws the `part`-th of `parts` equal parts of all fabrics into the targets' frame. The first part
@@ -165,8 +160,6 @@ impl FibersPass {
         if let Some(frame) = resolved {
             uses.push(Use::Discard(frame, ImageState::COLOR_TARGET));
         }
-        let draws = self.draw_count();
-        let range = draws * part / parts..draws * (part + 1) / parts;
         let record = move |commands: &Commands<'_>| {
             let rendering = Rendering {
                 extent: targets.size,
@@ -182,24 +175,20 @@ impl FibersPass {
                     store: !last,
                 }),
             };
-            commands.render(&rendering, || self.draw(commands, range.clone()));
+            commands.render(&rendering, || self.draw(commands, (part, parts)));
             Ok(())
         };
         Pass { name: "fibers", uses, record: Box::new(record) }
     }
 
-    /// Records the draws whose place among those of all fabrics lies in `range`.
-    fn draw(&self, commands: &Commands<'_>, range: Range<usize>) {
-        let mut before = 0;
-        for draws in &self.draws {
-            let count = draws.plan.draw_count();
-            let start = range.start.clamp(before, before + count) - before;
-            let end = range.end.clamp(before, before + count) - before;
-            before += count;
-            let Some(pipeline) = draws.pipeline.as_ref().filter(|_| start < end) else { continue };
+    /// Records a part of the draws.
+    fn draw(&self, commands: &Commands<'_>, (part, parts): (usize, usize)) {
+        for (place, range) in part_draws(self.plans(), part, parts) {
+            let draws = &self.draws[place];
+            let Some(pipeline) = &draws.pipeline else { continue };
             commands.bind_pipeline(pipeline);
             commands.bind_sets(pipeline, &[&self.frame_set, &self.fabrics[draws.fabric].2]);
-            for draw in draws.plan.draws().take(end).skip(start) {
+            for draw in draws.plan.draws().take(range.end).skip(range.start) {
                 commands.draw(draw.patches, draw.groups, draw.first_patch, draw.first_group);
             }
         }

@@ -25,8 +25,8 @@ impl Manner {
     /// The features of its pipelines.
     fn features(self, of_fabric: &Features) -> Features {
         match self {
-            Self::AtPixels | Self::AtVertices => *of_fabric,
-            Self::Whole => of_fabric.whole(),
+            Self::AtPixels | Self::AtVertices => of_fabric.of_picture(),
+            Self::Whole => of_fabric.whole().of_picture(),
         }
     }
 }
@@ -41,7 +41,7 @@ pub enum Strands {
 }
 
 impl Strands {
-    fn stages(self) -> [(vk::ShaderStageFlags, &'static str); 5] {
+    pub(super) fn stages(self) -> [(vk::ShaderStageFlags, &'static str); 5] {
         use vk::ShaderStageFlags as Stage;
         let [control, evaluation, geometry, fragment] = match self {
             Self::Core => ["passes/core.tesc", "passes/core.tese", "passes/core.geom", "passes/core.frag"],

@@ -62,6 +62,12 @@ pub struct Features {
     pub regular_fibers: bool,
     /// Fibers that are thin in the picture are shaded at their vertices.
     pub vertex_shading: bool,
+    /// Pictures have a layer of how what is seen moves.
+    pub motion_layer: bool,
+    /// And one of which yarn it is.
+    pub id_layer: bool,
+    /// For the former: the fabric lies elsewhere in the frames before and after.
+    pub neighbours: bool,
 }
 
 /// Specialization constants of `glsl/shared/features.glsl`.
@@ -95,6 +101,9 @@ pub enum SpecializationId {
     AtVertices = 23,
     ChordShadow = 24,
     SwiftTurns = 25,
+    MotionLayer = 26,
+    IdLayer = 27,
+    Neighbours = 28,
 }
 
 /// Whether light is dimmed inside a yarn by the table over its whole cross-section, where it is: a scene that states that
@@ -158,6 +167,50 @@ impl Features {
                 && file.quality.level_of_detail
                 && matches!(shown, FibersShown::Both | FibersShown::Regular)
                 && file.quality.vertex_shaded_samples > 0.0,
+            motion_layer: file.layers.motion,
+            id_layer: file.layers.id,
+            neighbours: file.layers.motion && fabric.motion.is_some(),
+        }
+    }
+
+    /// What the same fabric needs where it is drawn into a picture, not its layers.
+    #[must_use]
+    pub fn of_picture(&self) -> Self {
+        Self { motion_layer: false, id_layer: false, neighbours: false, ..*self }
+    }
+
+    /// What it needs where the same fibers are drawn into its layers: no light.
+    #[must_use]
+    pub fn of_layers(&self) -> Self {
+        Self {
+            basis: self.basis,
+            culling: self.culling,
+            distance_occlusion: false,
+            statistics: false,
+            specular: false,
+            diffuse: false,
+            physical: false,
+            shadow_map: false,
+            soft_shadows: false,
+            self_shadow: false,
+            chord_shadow: false,
+            texture_occlusion: false,
+            yarn_occlusion: false,
+            ambient: false,
+            light_count: 0,
+            local_lights: false,
+            environment: false,
+            debug_view: DebugView::Shaded,
+            flyaways: self.flyaways,
+            swift_turns: self.swift_turns,
+            core_fibers: self.core_fibers,
+            core_fibers_drawn: self.core_fibers_drawn,
+            level_of_detail: self.level_of_detail,
+            regular_fibers: self.regular_fibers,
+            vertex_shading: false,
+            motion_layer: self.motion_layer,
+            id_layer: self.id_layer,
+            neighbours: self.neighbours,
         }
     }
 
@@ -180,7 +233,7 @@ impl Features {
 
     /// Identifier and value of every specialization constant, booleans as 0 and 1, for frames of `samples`
     /// samples a pixel; `at_vertices` for the pipelines that shade there.
-    pub fn specialization(&self, samples: u32, at_vertices: bool) -> [(SpecializationId, u32); 26] {
+    pub fn specialization(&self, samples: u32, at_vertices: bool) -> [(SpecializationId, u32); 29] {
         use SpecializationId as Id;
         [
             (Id::Basis, self.basis as u32),
@@ -209,6 +262,9 @@ impl Features {
             (Id::AtVertices, at_vertices.into()),
             (Id::ChordShadow, self.chord_shadow.into()),
             (Id::SwiftTurns, self.swift_turns.into()),
+            (Id::MotionLayer, self.motion_layer.into()),
+            (Id::IdLayer, self.id_layer.into()),
+            (Id::Neighbours, self.neighbours.into()),
         ]
     }
 
@@ -271,6 +327,8 @@ impl Features {
         );
         leave(!self.culling, "culling", "quality.culling is false");
         leave(!self.statistics, "statistics", "no one asked for them");
+        leave(!self.motion_layer, "motion_layer", "layers.motion is false");
+        leave(!self.id_layer, "id_layer", "layers.id is false");
         out
     }
 }

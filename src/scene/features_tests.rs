@@ -11,7 +11,15 @@ fn features(edit: impl FnOnce(&mut SceneFile, &mut Fabric)) -> Features {
 #[test]
 fn a_default_scene_leaves_out_only_what_it_lacks() {
     let out = features(|_, _| {}).left_out();
-    let expected = ["environment", "local_lights", "soft_shadows", "statistics", "swift_turns"];
+    let expected = [
+        "environment",
+        "id_layer",
+        "local_lights",
+        "motion_layer",
+        "soft_shadows",
+        "statistics",
+        "swift_turns",
+    ];
     assert_eq!(out.keys().copied().collect::<Vec<_>>(), expected);
 }
 

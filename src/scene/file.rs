@@ -37,6 +37,8 @@ pub struct SceneFile {
     pub quality: QualityTable,
     /// Which frames of moving fabrics are shown, and how fast.
     pub animation: AnimationTable,
+    /// What an EXR picture holds besides its light.
+    pub layers: LayersTable,
     /// From radiance to the displayed picture.
     pub display: DisplayTable,
     /// Views that show something else than light.
@@ -220,6 +222,23 @@ impl Default for QualityTable {
             curves_per_submission: 2_000_000,
             points_per_buffer: 4 << 20,
         }
+    }
+}
+
+/// What an EXR picture holds besides its light: of what is seen at the centre of each pixel.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LayersTable {
+    /// How far it moves in the picture to the frame after, and to the frame before.
+    pub motion: bool,
+    /// Which fabric it is, and which of its yarns.
+    pub id: bool,
+}
+
+impl LayersTable {
+    /// Whether there is any layer.
+    pub fn any(&self) -> bool {
+        self.motion || self.id
     }
 }
 

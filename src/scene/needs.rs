@@ -21,11 +21,17 @@ pub enum Need {
     OcclusionTexture,
     /// What other yarns leave open of the sky.
     Skies,
+    /// The layer of how what is seen moves.
+    MotionLayer,
+    /// The layer of which yarn it is.
+    IdLayer,
+    /// Where the frames before and after have the control points.
+    Neighbours,
 }
 
 impl Need {
     /// Every one.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 11] = [
         Self::Statistics,
         Self::Lights,
         Self::ShadowMap,
@@ -34,6 +40,9 @@ impl Need {
         Self::SelfShadowTable,
         Self::OcclusionTexture,
         Self::Skies,
+        Self::MotionLayer,
+        Self::IdLayer,
+        Self::Neighbours,
     ];
 
     /// Names of its buffers and images on the device, without those it shares with others.
@@ -47,6 +56,9 @@ impl Need {
             Self::SelfShadowTable => &["self-shadow table"],
             Self::OcclusionTexture => &["occlusion texture"],
             Self::Skies => &["skies"],
+            Self::MotionLayer => &["motion layer"],
+            Self::IdLayer => &["id layer"],
+            Self::Neighbours => &["control points before", "control points after"],
         }
     }
 }
@@ -63,6 +75,9 @@ impl Features {
             Need::SelfShadowTable => self.self_shadow,
             Need::OcclusionTexture => self.texture_occlusion,
             Need::Skies => self.yarn_occlusion,
+            Need::MotionLayer => self.motion_layer,
+            Need::IdLayer => self.id_layer,
+            Need::Neighbours => self.neighbours,
         }
     }
 }

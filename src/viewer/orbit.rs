@@ -113,7 +113,9 @@ mod tests {
         let axes = axes(&camera());
         let ahead = (-axes.z_axis).to_array();
         let toward = |drag| -DVec3::from_array(turn_light(ahead, &camera(), drag));
-        assert!(toward([40.0, 0.0]).dot(axes.x_axis) > 0.2 && toward([40.0, 0.0]).dot(axes.y_axis).abs() < 1e-9);
+        assert!(
+            toward([40.0, 0.0]).dot(axes.x_axis) > 0.2 && toward([40.0, 0.0]).dot(axes.y_axis).abs() < 1e-9
+        );
         assert!(toward([0.0, 40.0]).dot(axes.y_axis) < -0.2);
         assert!(turn_light([0.0; 3], &camera(), [1.0, 1.0]).iter().all(|c| c.is_finite()));
     }

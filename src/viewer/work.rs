@@ -9,7 +9,7 @@ use crate::frame::sampling::Sampling;
 use crate::frame::tables::Tables;
 use crate::io::kept::Kept;
 use crate::scene::Scene;
-use crate::scene::file::SceneFile;
+use crate::scene::file::{LayersTable, SceneFile};
 use crate::scene::models::Models;
 use crate::vulkan::{Device, VulkanError};
 use std::sync::Arc;
@@ -157,6 +157,8 @@ impl Work {
         let Some(Order { wanted, .. }) = &mut self.wanted else { return Ok(()) };
         let quality = &mut wanted.file.quality;
         quality.curves_per_submission = quality.curves_per_submission.min(MOST_CURVES);
+        // Nothing in a window shows them.
+        wanted.file.layers = LayersTable::default();
         let request = request(wanted, wanted.size, REFINEMENTS[0]);
         let place = (wanted.folder.as_path(), wanted.name.as_str());
         if let Some(awaited) =

@@ -24,7 +24,10 @@ fn texel_bytes(format: vk::Format) -> Option<u64> {
         | vk::Format::R32_SFLOAT
         | vk::Format::R32_UINT
         | vk::Format::D32_SFLOAT => 4,
-        vk::Format::R16G16B16A16_SFLOAT | vk::Format::R16G16B16A16_UNORM | vk::Format::R32G32_SFLOAT => 8,
+        vk::Format::R16G16B16A16_SFLOAT
+        | vk::Format::R16G16B16A16_UNORM
+        | vk::Format::R32G32_SFLOAT
+        | vk::Format::R32G32_UINT => 8,
         vk::Format::R32G32B32A32_SFLOAT | vk::Format::R32G32B32A32_UINT => 16,
         _ => return None,
     })

@@ -5,6 +5,7 @@ use serde_json::Value;
 use std::os::unix::fs::PermissionsExt;
 use worsted::io::bcc::{read_bcc, write_bcc};
 use worsted::io::curves::CurveSet;
+use worsted::io::picture::read_exr;
 
 /// The swatch close up in a thin yarn, in pictures of few pixels.
 const SMALL: [&str; 12] = [
@@ -198,4 +199,51 @@ fn generated_fabric_moves_by_morph_targets_and_by_a_skin() {
     assert!(String::from_utf8_lossy(&info.stdout).contains("format: glTF"));
     place.refuses(&["knit", "stockinette", "--animate", "wave", "-o", "a.bcc"], 2, &["a.bcc", ".gltf"]);
     place.refuses(&["knit", "stockinette", "-o", "a.obj"], 2, &["a.obj", ".bcc or .gltf"]);
+}
+
+#[test]
+fn layers_go_into_exr_pictures_and_change_no_light() {
+    let place = place();
+    assert_good(&play(&place, "frames.f32", &["-o", "plain/%02d.exr", "--frames", "0..3"]));
+    let layered =
+        ["-o", "layered/%02d.exr", "-o", "layered/%02d.png", "--frames", "0..3", "--layers", "motion,id"];
+    assert_good(&play(&place, "frames.f32", &[&layered[..], &["--stats", "stats.json"]].concat()));
+    let stats: Value = serde_json::from_slice(&place.read("stats.json")).unwrap();
+    let points = stats["control_points"].as_u64().unwrap();
+    // 16 bytes a point for each of three frames, and 8 for its sky.
+    let uploaded = stats["pictures"][1]["uploaded_bytes"].as_u64().unwrap();
+    assert!(uploaded >= (3 * 16 + 8) * points, "{uploaded} for {points}");
+    for i in 0..3 {
+        let [plain, layered] = ["plain", "layered"].map(|folder| format!("{folder}/{i:02}.exr"));
+        assert!(place.read(&layered).len() > place.read(&plain).len());
+        assert_good(&place.run(&["compare", &layered, &plain, "--fail-above", "0"]));
+        let [plain, layered] = [plain, layered].map(|name| read_exr(&place.path(&name)).unwrap());
+        assert!(plain == layered, "picture {i}");
+    }
+    // A still is one of them, layers and all, whoever asked for them.
+    let swatch = swatch();
+    let motion = place.path("frames.f32").display().to_string();
+    let still = |more: &[&str]| {
+        let named = ["render", &swatch, "--motion", &motion, "--frame", "1", "-q"];
+        place.run(&[&named[..], &SMALL, more].concat())
+    };
+    assert_good(&still(&["-o", "still.exr", "--layers", "id,motion"]));
+    assert!(place.read("still.exr") == place.read("layered/01.exr"));
+    assert_good(&still(&["-o", "keys.exr", "--set", "layers.motion=true", "--set", "layers.id=true"]));
+    assert!(place.read("keys.exr") == place.read("layered/01.exr"));
+    let refused = still(&["-o", "still.png", "--layers", "motion"]);
+    let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert_eq!(refused.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("--layers: expected an .exr picture") && said.trim_end().lines().count() == 1,
+        "{said}"
+    );
+    assert!(!place.path("still.png").exists());
+    let refused = play(&place, "frames.f32", &["-o", "png/%02d.png", "--layers", "id"]);
+    assert_eq!(refused.status.code(), Some(2));
+    let unknown = still(&["-o", "still.exr", "--layers", "depth"]);
+    assert_eq!(unknown.status.code(), Some(2), "{}", String::from_utf8_lossy(&unknown.stderr));
+    // Pictures without layers are others than those with.
+    let others = play(&place, "frames.f32", &["-o", "plain/%02d.exr", "--frames", "0..3", "--layers", "id"]);
+    assert_eq!(others.status.code(), Some(2), "{}", String::from_utf8_lossy(&others.stderr));
 }

@@ -8,6 +8,8 @@ use worsted::shaders;
 const EXEMPT: &[(&str, &str)] = &[
     ("fetch_bezier", "reads the fabric's buffers: tests/fiber_positions.rs"),
     ("fetch_span", "reads the fabric's buffers: tests/fiber_positions.rs"),
+    ("fetch_neighbour", "reads the fabric's buffers: tests/motion_layers"),
+    ("fetch_neighbour_span", "reads the fabric's buffers: tests/motion_layers"),
     ("fetch_fiber_point", "reads the fabric's buffers: tests/fiber_positions.rs"),
     ("fetch_fiber_at", "reads the fabric's buffers: tests/fiber_positions.rs"),
     ("fetch_fiber_vertex", "reads the fabric's buffers; its parts are strand_vertex and fiber_point"),

@@ -2,9 +2,9 @@
 
 use crate::harness::{Args, Case, Part, Row, number, numbers, vector};
 use crate::inputs::{RANDOM_ROWS, Random, SPECIAL_T, random_rows, row, special_pieces, special_units};
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 use worsted::math::curve::{self, Basis, CurvePoint};
-use worsted::math::{angle, color, frame, strip, tone};
+use worsted::math::{angle, color, frame, motion, strip, tone};
 
 pub const BASES: [Basis; 4] = [Basis::CatmullRom, Basis::BSpline, Basis::Bezier, Basis::Polyline];
 /// Below this an angle or a factor has no relative error worth speaking of.
@@ -14,6 +14,7 @@ pub fn cases() -> Vec<Case> {
     let mut all = vec![bezier_from_basis(), bezier_point(), curve_point()];
     all.extend([unit_from_octahedral(), any_perpendicular(), direction_or(), normal_perpendicular_to()]);
     all.extend([angle_of(), longitudinal_angle(), cos_half_azimuth(), strip_side(), strip_normals()]);
+    all.extend([seen_motion(), carried_vector()]);
     all.extend([tone_neutral(), tone_filmic(), srgb_from_linear()]);
     all
 }
@@ -311,6 +312,59 @@ fn srgb_from_linear() -> Case {
         rows,
         twin: |args: &mut Args<'_>| {
             vec![number("encoded", color::srgb_from_linear(args.real()), FACTOR_FLOOR)]
+        },
+        invariant: None,
+    }
+}
+
+fn seen_motion() -> Case {
+    let clip = |random: &mut Random| random.unit().extend(random.magnitude(0.1, 1e3));
+    let row_of = |[a, b]: [DVec4; 2], near| {
+        row().vec3(a.truncate()).real(a.w).vec3(b.truncate()).real(b.w).real(near).end()
+    };
+    let mut rows = random_rows("seen_motion", |random| {
+        row_of([clip(random), clip(random)], random.magnitude(1e-3, 1.0))
+    });
+    // As far as one likes, on the near plane, behind it.
+    for w in [1e6, 1.0, 0.5, 0.1, -2.0] {
+        let (here, there) = (DVec3::new(0.3, -0.2, 0.1).extend(1.0), DVec3::new(-0.1, 0.4, 0.0).extend(w));
+        rows.extend([[here, there], [there, here], [there, there]].map(|pair| row_of(pair, 0.5)));
+    }
+    Case {
+        function: "seen_motion",
+        rows,
+        twin: |args| {
+            let (clip, clip_then, near) = (args.vec4(), args.vec4(), args.real());
+            let floor = [clip, clip_then].map(|c| c.truncate().truncate().length() / c.w.max(near));
+            let found = motion::seen_motion(clip, clip_then, near);
+            vec![numbers("motion", found.to_array().to_vec(), floor[0].max(floor[1]).max(f64::MIN_POSITIVE))]
+        },
+        invariant: None,
+    }
+}
+
+fn carried_vector() -> Case {
+    let axes = |random: &mut Random| {
+        let normal = random.unit();
+        [normal, normal.cross(frame::any_perpendicular(normal).normalize())]
+    };
+    let mut rows = random_rows("carried_vector", |random| {
+        let ([a, b], [c, d]) = (axes(random), axes(random));
+        row().vec3(random.magnitude(1e-3, 1e3) * random.unit()).vec3(a).vec3(b).vec3(c).vec3(d).end()
+    });
+    let still = [DVec3::X, DVec3::Y];
+    for v in [DVec3::ZERO, DVec3::X, DVec3::NEG_Z, DVec3::splat(1e6)] {
+        for [c, d] in [still, [DVec3::Y, DVec3::Z], [DVec3::NEG_X, DVec3::Y]] {
+            rows.push(row().vec3(v).vec3(still[0]).vec3(still[1]).vec3(c).vec3(d).end());
+        }
+    }
+    Case {
+        function: "carried_vector",
+        rows,
+        twin: |args| {
+            let v = args.vec3();
+            let (now, then) = ([args.vec3(), args.vec3()], [args.vec3(), args.vec3()]);
+            vec![vector("carried", motion::carried_vector(v, now, then), v.length().max(f64::MIN_POSITIVE))]
         },
         invariant: None,
     }

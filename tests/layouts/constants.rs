@@ -41,6 +41,9 @@ pub fn everything() -> Features {
         level_of_detail: true,
         regular_fibers: true,
         vertex_shading: true,
+        motion_layer: true,
+        id_layer: true,
+        neighbours: true,
     }
 }
 

@@ -63,13 +63,15 @@ fn fiber_sets() -> Vec<Vec<Binding>> {
 
 /// The shaders that read the sets of the fiber pass: those of single fibers, of cores and of ribbons.
 fn draws_strands(shader: &Reflected) -> bool {
-    ["passes/fibers.", "passes/core.", "passes/shadow_map."].iter().any(|pass| shader.path.starts_with(pass))
+    ["passes/fibers.", "passes/core.", "passes/layers.", "passes/shadow_map."]
+        .iter()
+        .any(|pass| shader.path.starts_with(pass))
 }
 
 #[test]
 fn bindings_of_the_fiber_shaders_are_those_of_the_pass() {
     let sets = fiber_sets();
-    assert_eq!(sets.iter().map(Vec::len).collect::<Vec<_>>(), [5, 12]);
+    assert_eq!(sets.iter().map(Vec::len).collect::<Vec<_>>(), [5, 14]);
     let mut seen = Vec::new();
     for shader in reflection::all().iter().filter(|shader| draws_strands(shader)) {
         for descriptor in &shader.descriptors {

@@ -87,13 +87,33 @@ fn variants() -> Vec<Features> {
         .to_vec()
 }
 
+/// As the layers are drawn: both, one of them, of cloth that stands still, of every fiber.
+fn layered() -> Vec<Features> {
+    let edits: [fn(&mut Features); 5] = [
+        |_| (),
+        |f| f.id_layer = false,
+        |f| (f.motion_layer, f.neighbours) = (false, false),
+        |f| f.neighbours = false,
+        |f| (*f = f.whole(), f.flyaways = false).1,
+    ];
+    edits
+        .map(|edit| {
+            let mut features = everything().of_layers();
+            edit(&mut features);
+            features
+        })
+        .to_vec()
+}
+
 #[test]
 fn shaders_without_what_features_leave_out_are_valid_and_shorter() {
-    let passes = ["passes/fibers.", "passes/core.", "passes/shadow_map."];
+    let passes = ["passes/fibers.", "passes/core.", "passes/layers.", "passes/shadow_map."];
     let strands = || shaders::all().filter(|(path, _)| passes.iter().any(|pass| path.starts_with(pass)));
     for (path, words) in strands() {
         let manners = |features| [Manner::AtPixels, Manner::AtVertices].map(|manner| (features, manner));
-        for (features, manner) in variants().into_iter().flat_map(manners) {
+        let of_layers = layered().into_iter().map(|features| (features, Manner::AtPixels));
+        let of_pictures = variants().into_iter().map(|features| features.of_picture());
+        for (features, manner) in of_pictures.flat_map(manners).chain(of_layers) {
             let constants = specialization(&features, vk::SampleCountFlags::TYPE_1, manner);
             let trimmed = trimmed(words, &constants).expect("SPIR-V");
             assert_eq!(validate(&trimmed), Ok(()), "{path} for {features:?}, {manner:?}");
@@ -101,7 +121,7 @@ fn shaders_without_what_features_leave_out_are_valid_and_shorter() {
         }
     }
     let (_, whole) = strands().find(|(path, _)| *path == "passes/fibers.frag").expect("embedded");
-    let least = variants().pop().expect("variants");
+    let least = variants().pop().expect("variants").of_picture();
     let constants = specialization(&least, vk::SampleCountFlags::TYPE_1, Manner::AtPixels);
     let trimmed = trimmed(whole, &constants).expect("SPIR-V");
     assert!(trimmed.len() * 3 < whole.len(), "{} of {} words are left", trimmed.len(), whole.len());

@@ -106,7 +106,7 @@ fn gray(share: impl Fn(usize) -> f64, cover: impl Fn(usize) -> f64) -> Picture {
         [r, g, b, 255]
     };
     let display = (0..SIZE[0] as usize * SIZE[1] as usize).map(pixel).collect();
-    Picture { size: SIZE, linear: Vec::new(), display }
+    Picture { size: SIZE, linear: Vec::new(), display, layers: None }
 }
 
 fn scene(dimmed: Dimmed) -> Result<Scene, Error> {

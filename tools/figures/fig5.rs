@@ -64,5 +64,5 @@ fn picture(texture: &CoreTexture, level: u32, color: fn(&Moments) -> [f64; 3]) -
     };
     // Row 0 of the texture is at the bottom.
     let display = texels.chunks_exact(mip.columns as usize).rev().flatten().map(shown).collect();
-    Picture { size: [mip.columns, mip.rows], linear: Vec::new(), display }
+    Picture { size: [mip.columns, mip.rows], linear: Vec::new(), display, layers: None }
 }

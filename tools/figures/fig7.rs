@@ -61,7 +61,7 @@ fn difference(first: &Picture, second: &Picture) -> Picture {
         [r, g, b, 255]
     };
     let display = first.linear.iter().zip(&second.linear).map(pixel).collect();
-    Picture { size: first.size, linear: Vec::new(), display }
+    Picture { size: first.size, linear: Vec::new(), display, layers: None }
 }
 
 /// A straight strand in ambient light alone.

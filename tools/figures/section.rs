@@ -17,7 +17,12 @@ pub fn section(pixels: u32, color: impl Fn(DVec2) -> [f64; 3]) -> Picture {
         let byte = |c: f64| (255.0 * c.clamp(0.0, 1.0)).round() as u8;
         [byte(r), byte(g), byte(b), 255]
     };
-    Picture { size: [pixels; 2], linear: Vec::new(), display: (0..pixels * pixels).map(pixel).collect() }
+    Picture {
+        size: [pixels; 2],
+        linear: Vec::new(),
+        display: (0..pixels * pixels).map(pixel).collect(),
+        layers: None,
+    }
 }
 
 /// Sum of all plies' densities, averaged over migration, at `position` in outer radii, ply 0 along x.
