@@ -6,5 +6,6 @@ mod edit;
 pub mod history;
 mod lights;
 mod lines;
+pub mod panel;
 pub mod recent;
 mod save;
