@@ -36,6 +36,7 @@ impl Changes {
             Group::Display => before.display != after.display,
             Group::Debug => before.debug != after.debug,
             Group::Animation => before.animation != after.animation,
+            Group::Layers => before.layers != after.layers,
         };
         Self { groups: Group::ALL.into_iter().filter(differs).collect() }
     }

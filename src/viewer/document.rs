@@ -26,6 +26,7 @@ pub struct Document {
     opened: DocumentMut,
     good: Good,
     history: History<DocumentMut>,
+    revision: u64,
     rejected: Option<Rejected>,
     automatic: HashMap<String, Value>,
     center_mm: DVec3,
@@ -98,6 +99,11 @@ impl Document {
     /// What differs from a scene of before.
     pub fn changes_since(&self, before: &SceneFile) -> Changes {
         Changes::between(before, &self.good.file)
+    }
+
+    /// A number that is another one after every change.
+    pub fn revision(&self) -> u64 {
+        self.revision
     }
 
     /// The value that was refused last, until something is changed.
@@ -292,7 +298,7 @@ impl Document {
                     let before = std::mem::replace(&mut self.typed, candidate);
                     self.history.record(before, goes_on.then_some(path));
                     self.good = good;
-                    self.resets.borrow_mut().clear();
+                    self.touched();
                 }
                 Ok(())
             }
@@ -313,8 +319,13 @@ impl Document {
         // Every version that is kept was good when it was made.
         let Ok(good) = Good::of(&then) else { return false };
         (self.typed, self.good) = (then, good);
-        self.resets.borrow_mut().clear();
+        self.touched();
         true
+    }
+
+    fn touched(&mut self) {
+        self.revision += 1;
+        self.resets.borrow_mut().clear();
     }
 
     fn take_away(&self, typed: &mut DocumentMut, path: &str) -> Result<(), String> {

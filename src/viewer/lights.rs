@@ -54,13 +54,13 @@ pub fn added(kind: LightKind, center_mm: DVec3) -> LightTable {
     as_kind(&fill, kind, center_mm)
 }
 
-/// A number with four digits, as a person would type it.
-pub fn to_digits(number: f64) -> f64 {
-    format!("{number:.*e}", DIGITS - 1).parse().unwrap_or(number)
+/// A number with so many digits, as a person would type it.
+pub fn to_digits(number: f64, digits: usize) -> f64 {
+    format!("{number:.*e}", digits.max(1) - 1).parse().unwrap_or(number)
 }
 
 fn rounded(vector: DVec3) -> [f64; 3] {
-    vector.to_array().map(to_digits)
+    vector.to_array().map(|c| to_digits(c, DIGITS))
 }
 
 #[cfg(test)]
@@ -82,8 +82,8 @@ mod tests {
                 assert!(a.to_light.dot(b.to_light) > 0.9999, "{from:?} {to:?}");
             }
         }
-        assert_eq!(to_digits(0.123_456), 0.1235);
-        assert_eq!(to_digits(-0.0), 0.0);
+        assert_eq!(to_digits(0.123_456, 4), 0.1235);
+        assert_eq!(to_digits(-0.0, 4), 0.0);
         assert_eq!(["spot", "lamp"].map(kind_named), [Some(LightKind::Spot), None]);
     }
 }

@@ -9,6 +9,7 @@ mod lines;
 pub mod orbit;
 pub mod pace;
 pub mod painter;
+pub mod panel;
 pub mod recent;
 mod save;
 pub mod showing;

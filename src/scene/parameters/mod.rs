@@ -104,11 +104,13 @@ pub enum Group {
     Debug,
     /// Which frames of moving fabrics are shown.
     Animation,
+    /// What an EXR holds beside light.
+    Layers,
 }
 
 impl Group {
     /// All of them, in the order in which they are shown.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Yarn,
         Self::Fiber,
         Self::Light,
@@ -121,6 +123,7 @@ impl Group {
         Self::Display,
         Self::Debug,
         Self::Animation,
+        Self::Layers,
         Self::Fabric,
     ];
 
@@ -140,6 +143,7 @@ impl Group {
             Self::Display => "display",
             Self::Debug => "debug",
             Self::Animation => "animation",
+            Self::Layers => "layers",
         }
     }
 

@@ -1,4 +1,4 @@
-//! Parameters of what is seen: camera, display, debug views, and which frame of a motion.
+//! Parameters of what is seen: camera, display, debug views, which frame of a motion, and what is beside light.
 
 use super::{FARTHEST_MM, Group, Kind, MOST_TURNED_DEG, Parameter};
 
@@ -96,4 +96,11 @@ pub const ROWS: &[Parameter] = &[
     animation("speed", Kind::Number(1e-6, 1e6), "Frames from one picture to the next.")
         .slide_shares(0.01, 100.0),
     animation("repeat", Kind::Switch, "The first frame follows the last, again and again."),
+    Parameter::new(
+        Group::Layers,
+        "motion",
+        Kind::Switch,
+        "An EXR holds how far each pixel moves, both ways.",
+    ),
+    Parameter::new(Group::Layers, "id", Kind::Switch, "An EXR holds which fabric and yarn each pixel shows."),
 ];

@@ -31,6 +31,7 @@ impl Document {
             opened: typed.clone(),
             typed,
             history: History::new(),
+            revision: 0,
             rejected: None,
             automatic: HashMap::new(),
             center_mm: DVec3::ZERO,
@@ -59,8 +60,11 @@ impl Document {
         write_whole(path, |out| out.write_all(text.as_bytes()))?;
         self.opened = moved.clone();
         (self.path, self.bare) = (path.to_owned(), false);
+        let differs = text != self.typed.to_string();
         (self.typed, self.good, self.history) = (moved, good, history);
-        self.resets.borrow_mut().clear();
+        if differs {
+            self.touched();
+        }
         self.end_gesture();
         Ok(())
     }

@@ -6,6 +6,9 @@ use crate::scene::parameters::{Group, Kind, Parameter, find};
 use crate::viewer::lights::to_digits;
 use toml::{Table, Value};
 
+/// Digits of what is worked out.
+const DIGITS: usize = 4;
+
 impl Document {
     /// A value to start from where a key is absent: what it came to where that is known, or the middle of what is usual.
     pub fn start_value(&self, path: &str) -> Option<Value> {
@@ -21,11 +24,11 @@ impl Document {
         let fabric =
             own.and_then(|index| self.good.file.fabric.get(index)).map_or(&none, |fabric| &fabric.fiber);
         let fiber = resolve_fiber(&self.good.file.fiber, fabric).ok()?;
-        let rounded = |rgb: [f64; 3]| Value::from(rgb.map(to_digits).to_vec());
+        let rounded = |rgb: [f64; 3]| Value::from(rgb.map(|c| to_digits(c, DIGITS)).to_vec());
         match row.key {
             "diffuse" | "color" => Some(rounded(fiber.diffuse())),
             "specular" => Some(rounded(fiber.specular())),
-            "specular_width_deg" => Some(to_digits(fiber.specular_width().to_degrees()).into()),
+            "specular_width_deg" => Some(to_digits(fiber.specular_width().to_degrees(), DIGITS).into()),
             _ => None,
         }
     }
@@ -34,7 +37,7 @@ impl Document {
 fn plain_start(row: &Parameter) -> Value {
     let (low, high) = row.usual;
     let middle = if row.logarithmic { (low.max(1e-3) * high).sqrt() } else { 0.5 * (low + high) };
-    let middle = to_digits(middle);
+    let middle = to_digits(middle, 2);
     match row.kind {
         Kind::Switch => Value::Boolean(false),
         Kind::Count(..) => Value::Integer(middle as i64),
