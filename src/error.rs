@@ -11,6 +11,9 @@ pub const EXIT_FAILED: u8 = 1;
 /// Exit code of bad input or arguments.
 pub const EXIT_BAD_INPUT: u8 = 2;
 
+/// Exit code where no device can be used, or no display.
+pub const EXIT_NO_DEVICE: u8 = 3;
+
 /// Why a command failed; each is one line.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
@@ -26,6 +29,9 @@ pub enum Error {
     /// The device.
     #[error(transparent)]
     Vulkan(#[from] VulkanError),
+    /// No display to open a window on.
+    #[error("{0}")]
+    NoDisplay(String),
     /// Arguments that do not fit together.
     #[error("{0}")]
     Arguments(String),
@@ -42,6 +48,7 @@ impl Error {
             Self::File(_) | Self::Scene(_) | Self::Knit(_) | Self::Arguments(_) => EXIT_BAD_INPUT,
             Self::Vulkan(error) => error.exit_code(),
             Self::Failed(_) => EXIT_FAILED,
+            Self::NoDisplay(_) => EXIT_NO_DEVICE,
         }
     }
 }

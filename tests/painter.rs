@@ -95,7 +95,7 @@ fn an_edit_is_seen_before_its_tables_are_there_and_ends_with_them() {
     let shown = until_settled(&painter);
     assert!(shown.iter().all(|shown| shown.revision == revision));
     assert!(!shown[0].own_tables && shown.last().unwrap().own_tables);
-    assert!(shown.iter().filter(|shown| !shown.own_tables).all(|shown| shown.stats.samples == 4));
+    assert!(shown.iter().filter(|shown| !shown.own_tables).all(|shown| shown.stats.samples <= 4));
     assert!(shown.last().unwrap().picture.display == rendered(sets, 16));
     // Of another shape: nothing stands for it.
     let sets = &["yarn.ply_count=2"];
@@ -127,7 +127,7 @@ fn while_something_moves_one_picture_answers_each_wish() {
         let moving = Wanted { moving: true, ..wanted(&[&format!("camera.yaw_deg={yaw}")]) };
         let revision = painter.want(moving);
         let shown = next(&painter);
-        assert!(shown.revision == revision && !shown.settled && shown.stats.samples == 4);
+        assert!(shown.revision == revision && !shown.settled && shown.stats.samples <= 4);
         assert_eq!(shown.file.camera.yaw_deg, f64::from(yaw));
     }
     assert!(painter.news.recv_timeout(Duration::from_millis(300)).is_err(), "nothing follows by itself");

@@ -50,6 +50,9 @@ pub enum Command {
     /// Draw a scene, or a bare yarn file with a motion, into one picture after the other. Stopped at any moment, the
     /// same command goes on from there.
     Play(Play),
+    /// Open a window on a scene, or a bare yarn file, and edit it.
+    #[cfg(feature = "viewer")]
+    View(Box<View>),
     /// Trace a scene, or a bare yarn file, over its real fibers: slow, and what `render` is judged by. Stopped at
     /// any moment, the same command goes on from there.
     Reference(Reference),
@@ -110,6 +113,39 @@ pub struct ViewArgs {
     /// `fit`.
     #[arg(long, value_name = "yaw=30,pitch=20,distance=400,target=0:0:0|fit", allow_hyphen_values = true)]
     pub camera: Option<String>,
+}
+
+/// `worsted view`.
+#[cfg(feature = "viewer")]
+#[derive(Debug, ClapArgs)]
+pub struct View {
+    /// What to edit.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// When; as of `render`.
+    #[command(flatten)]
+    pub time: TimeArgs,
+    /// Width and height of the window, in pixels, and from where the scene is seen.
+    #[command(flatten)]
+    pub view: ViewArgs,
+    /// Samples per pixel to which a picture is refined while nothing changes.
+    #[arg(long, default_value_t = 64, value_parser = clap::value_parser!(u32).range(4..=64))]
+    pub samples: u32,
+    /// Compare with this picture of linear radiance (`.exr`); pictures then have its size.
+    #[arg(long, value_name = "FILE.exr")]
+    pub reference: Option<PathBuf>,
+    /// Write the picture that is shown last, when the window closes by itself, and the scene beside it.
+    #[arg(long, value_name = "FILE.png", requires = "exit_after_frames")]
+    pub screenshot: Option<PathBuf>,
+    /// Close the window after so many pictures, or once nothing better follows.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub exit_after_frames: Option<u64>,
+    /// Bake tables and build pipelines anew, and keep neither.
+    #[arg(long, conflicts_with = "folder")]
+    pub no_cache: bool,
+    /// Where tables and pipelines are kept.
+    #[command(flatten)]
+    pub cache: super::bench_args::CacheArgs,
 }
 
 /// `worsted render`.

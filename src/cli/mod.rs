@@ -21,6 +21,8 @@ mod reference;
 mod render;
 mod say;
 mod stress;
+#[cfg(feature = "viewer")]
+mod view;
 
 use crate::error::Error;
 use crate::vulkan::{Device, DeviceOptions, Validation};
@@ -41,6 +43,8 @@ fn run_command(args: &Args) -> Result<(), Error> {
     match &args.command {
         Command::Render(render) => render::run(job::RenderJob::new(render, &args.common)?),
         Command::Play(play) => play::run(play::PlayJob::new(play, &args.common)?),
+        #[cfg(feature = "viewer")]
+        Command::View(view) => view::run(view, &args.common),
         Command::Bench(bench) => bench::run(bench, &args.common),
         Command::Reference(reference) => {
             reference::run(&reference::ReferenceJob::new(reference, &args.common)?)
@@ -77,6 +81,10 @@ pub fn start_logging(common: &Common) {
 /// Opens the device that was asked for. Debug builds, and release builds with `--validate`, check every
 /// call; a validation error ends the run.
 fn open_device(common: &Common) -> Result<Arc<Device>, Error> {
+    Ok(Device::new(&device_options(common))?)
+}
+
+fn device_options(common: &Common) -> DeviceOptions {
     let validation = if common.validate {
         Validation::On { required: true, sync: true }
     } else if cfg!(debug_assertions) {
@@ -85,5 +93,5 @@ fn open_device(common: &Common) -> Result<Arc<Device>, Error> {
         Validation::Off
     };
     let choice = common.device.parse().unwrap_or_default();
-    Ok(Device::new(&DeviceOptions { choice, validation, ..Default::default() })?)
+    DeviceOptions { choice, validation, ..Default::default() }
 }

@@ -63,6 +63,15 @@ impl Renderer {
         Ok(())
     }
 
+    /// Another renderer of the same device and pipelines, with tables that are there.
+    ///
+    /// # Errors
+    /// Those of the device.
+    pub fn beside(&self, scene: Scene, request: Request, tables: Tables) -> Result<Self, VulkanError> {
+        let (shaders, pipelines) = (self.shaders.clone(), self.pipelines.clone());
+        Self::assembled(&self.device, scene, request, shaders, pipelines, tables)
+    }
+
     /// Shows pictures otherwise from now on.
     ///
     /// # Errors
@@ -160,6 +169,11 @@ impl Renderer {
         let (scene, pipelines, tables) = (self.scene.clone(), self.pipelines.clone(), self.tables.clone());
         *self = Self::assembled(&self.device.clone(), scene, self.request, shaders, pipelines, tables)?;
         Ok(())
+    }
+
+    /// Whether pictures are drawn with these shaders.
+    pub fn has_shaders(&self, shaders: &ShaderSet) -> bool {
+        *shaders == self.shaders
     }
 
     /// The tables that pictures are drawn with.

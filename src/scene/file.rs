@@ -4,6 +4,7 @@ use super::animation::AnimationTable;
 use super::light::{AmbientTable, LightTable};
 use super::shadow::ShadowTable;
 use crate::bsdf::khungurn::tabulated::DEFAULT_ENTRIES;
+use crate::math::tone::{Display, Tone};
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor, value};
 use serde::{Deserialize, Serialize};
 
@@ -264,6 +265,17 @@ impl Default for DisplayTable {
             tone: ToneCurve::Neutral,
             transparent: false,
         }
+    }
+}
+
+impl DisplayTable {
+    /// The same as measures take it, which see the yarn over black.
+    pub fn measured(&self) -> Display {
+        let tone = match self.tone {
+            ToneCurve::Neutral => Tone::Neutral,
+            ToneCurve::Filmic => Tone::Filmic,
+        };
+        Display { exposure: self.exposure_stops.exp2(), tone }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The scene that is edited: its file's text as typed, what it comes to, and the way back.
 
+mod assign;
 mod files;
 mod start;
 

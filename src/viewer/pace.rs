@@ -3,9 +3,11 @@
 use std::time::Duration;
 
 /// Time that a picture may take while something moves: twelve a second.
-const TARGET_MS: f64 = 80.0;
-/// Smallest share of a picture's sides, and steps from there to the whole, so that few sizes are ever used.
+pub const TARGET_MS: f64 = 80.0;
+/// Steps from nothing to the whole of a picture's sides, so that few sizes are ever used, and the least of them: below it
+/// nobody sees what is dragged.
 const STEPS: u32 = 12;
+const LEAST_STEP: f64 = 2.0;
 /// Share by which one picture's time moves what is believed of the next one's.
 const BELIEF: f64 = 0.5;
 
@@ -29,10 +31,21 @@ impl Pace {
         self.whole_ms <= TARGET_MS
     }
 
-    /// The size at which the next picture is likely to come in time.
+    /// The size at which the next picture is likely to come in time while something moves.
     pub fn size(&self, whole: [u32; 2]) -> [u32; 2] {
-        let share = (TARGET_MS / self.whole_ms).sqrt().min(1.0);
-        let step = (share * f64::from(STEPS)).floor().max(1.0);
+        self.size_within(whole, TARGET_MS)
+    }
+
+    /// Whether a whole picture is likely to take so much longer than that one half as large on each side is worth drawing.
+    pub fn is_slow(&self, whole: [u32; 2], than_ms: f64) -> bool {
+        let [width, height] = self.size_within(whole, than_ms);
+        2 * width <= whole[0] && 2 * height <= whole[1]
+    }
+
+    /// The size at which it is likely to come within so many milliseconds.
+    pub fn size_within(&self, whole: [u32; 2], within_ms: f64) -> [u32; 2] {
+        let share = (within_ms / self.whole_ms).sqrt().min(1.0);
+        let step = (share * f64::from(STEPS)).floor().max(LEAST_STEP);
         whole.map(|side| ((f64::from(side) * step / f64::from(STEPS)).round() as u32).max(1))
     }
 
@@ -66,7 +79,8 @@ mod tests {
             }
             let size = pace.size(whole);
             let last = 1e3 * time(size).as_secs_f64();
-            assert!(last < 1.3 * TARGET_MS, "{microseconds_a_pixel}: {size:?} {last}");
+            let least = size == [160, 120];
+            assert!(last < 1.3 * TARGET_MS || least, "{microseconds_a_pixel}: {size:?} {last}");
             let larger = size.map(|side| side + whole[0] / 4);
             assert!(
                 size == whole || 1e3 * time(larger).as_secs_f64() > 0.8 * TARGET_MS,
@@ -80,7 +94,7 @@ mod tests {
     fn the_slowest_device_still_gets_a_picture() {
         let mut pace = Pace::default();
         pace.learn([80, 60], [960, 720], Duration::from_secs(100));
-        assert_eq!(pace.size([960, 720]), [80, 60]);
-        assert_eq!(pace.size([3, 1]), [1, 1]);
+        assert_eq!(pace.size([960, 720]), [160, 120]);
+        assert_eq!(pace.size([3, 1]), [1, 1], "not nothing");
     }
 }

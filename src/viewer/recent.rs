@@ -31,6 +31,11 @@ impl Recent {
         }
     }
 
+    /// A list that is kept nowhere.
+    pub fn nowhere() -> Self {
+        Self { kept_in: None, files: Vec::new() }
+    }
+
     /// The list in that file; empty where there is none.
     pub fn kept_in(path: &Path) -> Self {
         let list = std::fs::read_to_string(path).ok().and_then(|text| toml::from_str::<List>(&text).ok());

@@ -1,5 +1,6 @@
 //! What the painter has on the device: the scene that is shown, and how it follows what is wanted.
 
+use super::draft::{Detail, drafted};
 use super::painter::Shown;
 use crate::error::Error;
 use crate::frame::moving::Poser;
@@ -25,6 +26,7 @@ pub struct Showing {
     /// The scene whose own tables are still to be baked: those that it is drawn with are of another one.
     pub stale: Option<Scene>,
     motion: Option<Moving>,
+    drafts: [Option<Renderer>; 2],
 }
 
 /// What moves, worked out on another thread.
@@ -67,7 +69,7 @@ impl Showing {
         let stale = (!own).then(|| scene.clone());
         let renderer = Renderer::with_tables(device, scene, request, tables, kept)?;
         let motion = Moving::start(&renderer, movers)?;
-        let mut showing = Self { renderer, stale, motion };
+        let mut showing = Self { renderer, stale, motion, drafts: [None, None] };
         showing.pose(showing.renderer.scene().file.animation.frame)?;
         Ok(showing)
     }
@@ -127,9 +129,16 @@ impl Showing {
     }
 
     /// A picture of it, and what is known of that.
-    pub fn shown(&self, picture: Picture, (revision, settled): (u64, bool), delay: Duration) -> Shown {
+    pub fn shown(
+        &self,
+        picture: Picture,
+        draft: Option<Detail>,
+        (revision, settled): (u64, bool),
+        delay: Duration,
+    ) -> Shown {
         let (renderer, scene) = (&self.renderer, self.renderer.scene());
-        let mut stats = renderer.stats().clone();
+        let drawn = draft.and_then(|detail| self.drafts[detail as usize].as_ref()).unwrap_or(renderer);
+        let mut stats = drawn.stats().clone();
         stats.set_gpu_bytes(renderer.device());
         Shown {
             camera: fitted(renderer),
@@ -147,9 +156,37 @@ impl Showing {
 
     fn put(&mut self, scene: Scene, tables: Tables) -> Result<(), Error> {
         let movers = Movers::open(&scene)?;
+        self.drafts = [None, None];
         self.renderer.edit(scene, tables)?;
         self.motion = Moving::start(&self.renderer, movers)?;
         self.pose(self.renderer.scene().file.animation.frame)
+    }
+
+    /// Whether it can be drafted: what moves by itself cannot.
+    pub fn has_drafts(&self) -> bool {
+        self.motion.is_none()
+    }
+
+    /// What drafts the scene.
+    ///
+    /// # Errors
+    /// Those of the device.
+    pub fn draft(&mut self, detail: Detail, request: Request) -> Result<&mut Renderer, Error> {
+        let file = drafted(&self.renderer.scene().file, detail);
+        let place = &mut self.drafts[detail as usize];
+        let stays = match place {
+            Some(draft) => draft.scene().file == file || draft.edit_in_place(&file)?,
+            None => false,
+        };
+        let mut draft = match place.take().filter(|_| stays) {
+            Some(draft) => draft,
+            None => {
+                let scene = Scene { file, ..self.renderer.scene().clone() };
+                self.renderer.beside(scene, request, self.renderer.tables().clone())?
+            }
+        };
+        draft.set_request(request)?;
+        Ok(place.insert(draft))
     }
 
     /// Draws with other shaders from now on.
@@ -157,6 +194,9 @@ impl Showing {
     /// # Errors
     /// Those of the device, which may find fault with the shaders.
     pub fn set_shaders(&mut self, shaders: ShaderSet) -> Result<(), Error> {
+        if !self.renderer.has_shaders(&shaders) {
+            self.drafts = [None, None];
+        }
         Ok(self.renderer.set_shaders(shaders)?)
     }
 

@@ -1,6 +1,7 @@
 //! The painter's thread: what it has, and what it does next.
 
-use super::pace::Pace;
+use super::draft::Detail;
+use super::pace::{Pace, TARGET_MS};
 use super::painter::{News, Order, Wanted};
 use super::showing::{Followed, Showing};
 use crate::error::Error;
@@ -20,8 +21,10 @@ use std::time::Instant;
 
 /// Samples of the pictures that follow one another while nothing changes.
 const REFINEMENTS: [u32; 3] = [4, 16, 64];
+/// Time in which somebody who waits for a whole picture sees one that is nearly so.
+const SOON_MS: f64 = 900.0;
 /// Fiber curves handed to the device at once: between them a picture that nobody wants any more is given up.
-const MOST_CURVES: u64 = 50_000;
+const MOST_CURVES: u64 = 20_000;
 
 /// What comes to the thread.
 pub(super) enum Message {
@@ -37,7 +40,11 @@ pub(super) enum Message {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Stage {
     Nothing,
+    /// Coarser than the scene.
+    Draft(Detail),
+    /// The scene itself, small.
     Small,
+    /// And whole, by its place among the refinements.
     Whole(usize),
 }
 
@@ -51,11 +58,13 @@ pub(super) struct Work {
     tell: Box<dyn Fn(News) + Send>,
     newest: Arc<AtomicU64>,
     models: Models,
-    pace: Pace,
+    paces: Paces,
     wanted: Option<Order>,
     showing: Option<Showing>,
     /// A scene that is not shown before its tables are there.
     awaited: Option<Box<Scene>>,
+    /// Whether what changed last was more than how it is looked at.
+    remade: bool,
     /// Scenes that were made so far: tables are of one of them.
     made: u64,
     /// Of which one tables are being baked.
@@ -79,7 +88,8 @@ impl Work {
             tell,
             newest,
             models: Models::default(),
-            pace: Pace::default(),
+            paces: Paces::default(),
+            remade: true,
             wanted: None,
             showing: None,
             awaited: None,
@@ -179,8 +189,6 @@ impl Work {
         if let Some(showing) = &mut self.showing {
             showing.set_shaders(wanted.shaders.clone().unwrap_or_default())?;
         }
-        let restart =
-            if self.pace.whole_is_fast() && !wanted.moving { Stage::Whole(0) } else { Stage::Small };
         match followed {
             Followed::Awaited(scene) => {
                 self.made += 1;
@@ -189,11 +197,14 @@ impl Work {
                 self.next = Stage::Nothing;
                 return Ok(());
             }
-            Followed::Shown { remade } => self.made += u64::from(remade),
+            Followed::Shown { remade } => {
+                self.made += u64::from(remade);
+                self.remade = remade;
+            }
             Followed::Already => (),
         }
         self.awaited = None;
-        self.next = restart;
+        self.next = self.first();
         Ok(())
     }
 
@@ -220,7 +231,8 @@ impl Work {
                 return Ok(());
             }
         }
-        self.next = if self.pace.whole_is_fast() { Stage::Whole(0) } else { Stage::Small };
+        self.remade = true;
+        self.next = self.first();
         Ok(())
     }
 
@@ -232,6 +244,10 @@ impl Work {
         let stale = self.showing.as_ref().and_then(|showing| showing.stale.as_ref());
         let Some(scene) = self.awaited.as_deref().or(stale).cloned() else { return };
         let Some(Order { wanted, .. }) = &self.wanted else { return };
+        if wanted.moving && self.awaited.is_none() {
+            // What is dragged needs the processor, and tables of what it passes through nobody sees.
+            return;
+        }
         let (request, kept) = (request(wanted, wanted.size, REFINEMENTS[0]), self.kept.clone());
         let (made, inbox) = (self.made, self.inbox.clone());
         let bake = move || {
@@ -245,46 +261,107 @@ impl Work {
         self.wanted.as_ref().map_or(0, |order| order.revision)
     }
 
+    /// What is drawn first of what is shown anew.
+    fn first(&self) -> Stage {
+        let Some((Order { wanted, .. }, showing)) = self.wanted.as_ref().zip(self.showing.as_ref()) else {
+            return Stage::Nothing;
+        };
+        if self.device.is_cpu() && showing.has_drafts() {
+            let cores = !self.remade && !self.paces.fibers.whole_is_fast();
+            return Stage::Draft(if cores { Detail::Cores } else { Detail::Fibers });
+        }
+        match self.paces.scene.whole_is_fast() && !wanted.moving {
+            true => Stage::Whole(0),
+            false => Stage::Small,
+        }
+    }
+
+    /// What follows a picture, if nothing else is wanted meanwhile.
+    fn after(&self, stage: Stage) -> Stage {
+        let Some((Order { wanted, .. }, showing)) = self.wanted.as_ref().zip(self.showing.as_ref()) else {
+            return Stage::Nothing;
+        };
+        let step = match stage {
+            Stage::Nothing => return Stage::Nothing,
+            Stage::Draft(_) | Stage::Small if wanted.moving => return Stage::Nothing,
+            Stage::Draft(Detail::Cores) => return Stage::Draft(Detail::Fibers),
+            Stage::Draft(Detail::Fibers) if self.paces.scene.is_slow(wanted.size, SOON_MS) => {
+                return Stage::Small;
+            }
+            Stage::Draft(Detail::Fibers) | Stage::Small => 0,
+            Stage::Whole(step) => step + 1,
+        };
+        // With tables of another scene nothing is worth refining.
+        let allowed =
+            |&&samples: &&u32| step == 0 || showing.stale.is_none() && samples <= wanted.most_samples;
+        REFINEMENTS.get(step).filter(allowed).map_or(Stage::Nothing, |_| Stage::Whole(step))
+    }
+
     /// Draws what is next.
     fn draw(&mut self) -> Result<(), Error> {
+        let stage = std::mem::replace(&mut self.next, Stage::Nothing);
         let (Some(Order { wanted, revision, since }), Some(showing)) = (&self.wanted, &mut self.showing)
         else {
-            self.next = Stage::Nothing;
             return Ok(());
         };
-        let (size, samples) = match self.next {
+        let newest = &self.newest;
+        let goes_on = |_| !matches!(stage, Stage::Whole(_)) || newest.load(Ordering::Relaxed) == *revision;
+        let (pace, asked) = match stage {
             Stage::Nothing => return Ok(()),
-            Stage::Small => (self.pace.size(wanted.size), REFINEMENTS[0]),
-            Stage::Whole(step) => (wanted.size, REFINEMENTS[step]),
+            Stage::Draft(detail) => {
+                let pace = self.paces.of(detail);
+                let size = pace.size(wanted.size);
+                (Some(pace), Request { statistics: false, ..request(wanted, size, 1) })
+            }
+            Stage::Small => {
+                let within_ms = if wanted.moving { TARGET_MS } else { SOON_MS };
+                let size = self.paces.scene.size_within(wanted.size, within_ms);
+                (Some(&mut self.paces.scene), request(wanted, size, REFINEMENTS[0]))
+            }
+            Stage::Whole(0) => (Some(&mut self.paces.scene), request(wanted, wanted.size, REFINEMENTS[0])),
+            Stage::Whole(step) => (None, request(wanted, wanted.size, REFINEMENTS[step])),
         };
-        showing.renderer.set_request(request(wanted, size, samples))?;
-        showing.renderer.forget_pictures();
-        let (newest, small) = (&self.newest, self.next == Stage::Small);
-        let goes_on = |_| small || newest.load(Ordering::Relaxed) == *revision;
         let started = Instant::now();
-        let picture = showing.renderer.render_while(&goes_on)?;
-        if samples == REFINEMENTS[0] && picture.is_some() {
-            self.pace.learn(size, wanted.size, started.elapsed());
-        }
-        let stale = showing.stale.is_some();
-        let after = match self.next {
-            Stage::Small if !wanted.moving => Some(0),
-            Stage::Whole(step) => Some(step + 1),
-            _ => None,
+        let draft = if let Stage::Draft(detail) = stage { Some(detail) } else { None };
+        let renderer = match draft {
+            Some(detail) => showing.draft(detail, asked)?,
+            None => {
+                showing.renderer.set_request(asked)?;
+                &mut showing.renderer
+            }
         };
-        let after = after.filter(|&step| step == 0 || !stale);
-        let after = after
-            .filter(|&step| REFINEMENTS.get(step).is_some_and(|&samples| samples <= wanted.most_samples));
-        self.next = after.map_or(Stage::Nothing, Stage::Whole);
-        let Some(picture) = picture else {
+        renderer.forget_pictures();
+        let Some(picture) = renderer.render_while(&goes_on)? else {
             // Somebody wants another one: it is about to be received.
-            self.next = Stage::Nothing;
             return Ok(());
         };
-        let settled = self.next == Stage::Nothing && !stale && !wanted.moving;
-        let shown = showing.shown(picture, (*revision, settled), since.elapsed());
+        if let Some(pace) = pace {
+            pace.learn(asked.size, wanted.size, started.elapsed());
+        }
+        let (moving, revision, delay) = (wanted.moving, *revision, since.elapsed());
+        self.next = self.after(stage);
+        let Some(showing) = &self.showing else { return Ok(()) };
+        let settled = self.next == Stage::Nothing && showing.stale.is_none() && !moving;
+        let shown = showing.shown(picture, draft, (revision, settled), delay);
         (self.tell)(News::Picture(Box::new(shown)));
         Ok(())
+    }
+}
+
+/// How long pictures take, each kind by itself.
+#[derive(Default)]
+struct Paces {
+    scene: Pace,
+    fibers: Pace,
+    cores: Pace,
+}
+
+impl Paces {
+    fn of(&mut self, detail: Detail) -> &mut Pace {
+        match detail {
+            Detail::Fibers => &mut self.fibers,
+            Detail::Cores => &mut self.cores,
+        }
     }
 }
 

@@ -1,0 +1,43 @@
+//! `worsted view`.
+
+use super::args::{Common, View};
+use super::device_options;
+use super::job::{assignments, kept, parse_size};
+use crate::error::Error;
+use crate::frame::check_tables;
+use crate::io::whole::check_target;
+use crate::scene::Scene;
+use crate::viewer::app::{Opening, run as open};
+use crate::viewer::desk::Look;
+use crate::viewer::document::Document;
+use crate::viewer::recent::Recent;
+use crate::viewer::scripts::Script;
+
+/// Opens a window and waits until it is closed.
+///
+/// # Errors
+/// Arguments that make no sense, a scene that cannot be had, no display, no device, a device that fails.
+pub fn run(args: &View, common: &Common) -> Result<(), Error> {
+    if let Some(path) = &args.screenshot {
+        check_target(path)?;
+    }
+    let mut document = Document::open(&args.scene.path)?;
+    for assignment in assignments(&args.scene, args.time.frame, args.view.camera.as_deref())? {
+        document.assign(&assignment).map_err(|why| Error::Arguments(format!("--set {assignment}: {why}")))?;
+    }
+    // What cannot be had is said before a window opens.
+    let name = args.scene.path.display().to_string();
+    check_tables(&Scene::from_file(document.scene_file().clone(), document.folder(), &name)?)?;
+    let mut recent = if args.screenshot.is_some() { Recent::nowhere() } else { Recent::of_user() };
+    recent.note(&args.scene.path);
+    open(Opening {
+        document,
+        look: Look { most_samples: args.samples, statistics: true, shaders: None },
+        reference: args.reference.clone(),
+        size: parse_size(&args.view.size)?,
+        device: device_options(common),
+        kept: kept(args.no_cache, &args.cache),
+        recent,
+        script: Script { screenshot: args.screenshot.clone(), exit_after: args.exit_after_frames },
+    })
+}
