@@ -6,6 +6,7 @@ use crate::frame::Picture;
 use crate::io::picture::{DisplayImage, LinearImage, read_exr};
 use crate::metrics::error::compare;
 use crate::scene::file::DisplayTable;
+use egui::emath::GuiRounding;
 use egui::{Color32, ColorImage, Rect, Sense, TextureHandle, TextureOptions, Vec2, pos2, vec2};
 use std::path::Path;
 use std::sync::Arc;
@@ -180,9 +181,11 @@ impl Canvas {
     }
 
     /// Shows it, and says what was dragged.
-    pub fn show(&mut self, ui: &mut egui::Ui, trouble: Option<&str>) -> Drag {
+    pub fn show(&mut self, ui: &mut egui::Ui, trouble: Option<&str>, said: Option<&str>) -> Drag {
         let (place, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         let scale = ui.ctx().pixels_per_point();
+        // Pixels of the picture lie on those of the window: between them it would be blurred.
+        let place = place.round_to_pixels(scale);
         let side = |points: f32| ((points * scale).round() as u32).max(1);
         self.size_px = Some([side(place.width()), side(place.height())]);
         ui.painter().rect_filled(place, 0.0, Color32::from_gray(18));
@@ -199,10 +202,11 @@ impl Canvas {
         };
         let frame = self.frame_of(place);
         self.paint(ui, frame, &texture);
-        if let Some(trouble) = trouble {
+        let words = trouble.map(|why| (why, Color32::LIGHT_RED)).or(said.map(|said| (said, Color32::WHITE)));
+        if let Some((words, color)) = words {
             let at = place.left_bottom() + vec2(8.0, -8.0);
             let font = egui::FontId::proportional(14.0);
-            ui.painter().text(at, egui::Align2::LEFT_BOTTOM, trouble, font, Color32::LIGHT_RED);
+            ui.painter().text(at, egui::Align2::LEFT_BOTTOM, words, font, color);
         }
         self.drag(ui, &response, frame)
     }

@@ -13,12 +13,14 @@ use crate::scene::SceneFile;
 use crate::scene::file::CameraTable;
 use crate::scene::light::LightTable;
 use crate::shaders::ShaderSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use toml::Value;
 
 /// Width of the figures, in points: the cloth must not change its size with what they say.
 const FIGURES_POINTS: f32 = 250.0;
+/// How long what is said to the user stays.
+const SAID: Duration = Duration::from_secs(8);
 /// How often a window asks whether what plays has a next frame, where no picture comes to ask for it.
 const TICK: Duration = Duration::from_millis(100);
 
@@ -48,7 +50,10 @@ pub struct Desk {
     pub(super) playing: Playing,
     pub(super) recent: Recent,
     pub(super) trouble: Option<String>,
-    pub(super) said: Option<String>,
+    /// What was said to the user, and when.
+    pub(super) said: Option<(String, Instant)>,
+    /// A picture that is to be written once nothing better follows.
+    pub(super) screenshot: Option<PathBuf>,
     asked: Option<(SceneFile, [u32; 2], bool)>,
     wanted_revision: u64,
     /// Pictures that were shown.
@@ -74,6 +79,7 @@ impl Desk {
             recent,
             trouble: None,
             said: None,
+            screenshot: None,
             asked: None,
             wanted_revision: 0,
             pictures: 0,
@@ -131,6 +137,7 @@ impl Desk {
                     self.live.take(&shown, &self.canvas);
                     self.note(&shown);
                     self.shown = Some(shown);
+                    self.write_screenshot();
                 }
                 News::Trouble(why) => self.trouble = Some(why),
                 News::Ended(error) => self.ended = Some(error),
@@ -183,6 +190,17 @@ impl Desk {
         self.moves().then_some(TICK)
     }
 
+    /// Tells the user something, for a while.
+    pub(super) fn say(&mut self, said: impl Into<String>) {
+        self.said = Some((said.into(), Instant::now()));
+    }
+
+    pub(super) fn say_if_wrong(&mut self, done: Result<(), String>) {
+        if let Err(why) = done {
+            self.say(why);
+        }
+    }
+
     fn moves(&self) -> bool {
         self.playing.plays() || self.playing.turns()
     }
@@ -209,10 +227,14 @@ impl Desk {
     /// The picture, and what is dragged on it.
     fn picture(&mut self, ui: &mut egui::Ui) {
         let Some(camera) = self.fitted_camera() else {
-            self.canvas.show(ui, self.trouble.as_deref());
+            self.canvas.show(ui, self.trouble.as_deref(), None);
             return;
         };
-        let drag = self.canvas.show(ui, self.trouble.as_deref());
+        let said = self.said.as_ref().filter(|(_, when)| when.elapsed() < SAID);
+        if said.is_some() {
+            ui.ctx().request_repaint_after(SAID);
+        }
+        let drag = self.canvas.show(ui, self.trouble.as_deref(), said.map(|(said, _)| said.as_str()));
         let points = |v: egui::Vec2| [f64::from(v.x), f64::from(v.y)];
         let height = f64::from(drag.height_points);
         if drag.orbit != egui::Vec2::ZERO {
@@ -235,14 +257,13 @@ impl Desk {
         let lights = self.document.scene_file().light();
         let Some(light) = lights.first().filter(|light| light.direction.is_some() || !light.is_local())
         else {
-            self.said = Some("the first light has no direction to turn".into());
+            self.say("the first light has no direction to turn");
             return;
         };
         let turned = orbit::turn_light(LightTable::direction(light).to_array(), camera, drag);
         let value = Value::Array(turned.map(Value::Float).to_vec());
-        if let Err(why) = self.document.set("light.0.direction", value) {
-            self.said = Some(why);
-        }
+        let set = self.document.set("light.0.direction", value);
+        self.say_if_wrong(set);
     }
 
     /// Looks at all of it.
@@ -279,9 +300,8 @@ impl Desk {
 
     /// Shows one frame.
     pub fn scrub(&mut self, frame: f64) {
-        if let Err(why) = self.document.set("animation.frame", frame) {
-            self.said = Some(why);
-        }
+        let set = self.document.set("animation.frame", frame);
+        self.say_if_wrong(set);
     }
 
     /// Wants a picture, if what is wanted is another one than before.
@@ -312,69 +332,6 @@ impl Desk {
             shaders: self.look.shaders.clone(),
         });
         self.asked = Some((file, size, moving));
-    }
-
-    /// Opens another document in place of this one.
-    pub fn open(&mut self, path: &Path) {
-        match Document::open(path) {
-            Ok(document) => {
-                self.recent.note(path);
-                (self.document, self.camera) = (document, None);
-                self.playing = Playing::new();
-                self.said = None;
-            }
-            Err(error) => self.said = Some(error.to_string()),
-        }
-    }
-
-    /// Takes a file that was dropped on the window: a scene, a yarn, frames for it, or a picture to compare with.
-    pub fn take_file(&mut self, path: &Path, context: &egui::Context) {
-        let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
-        if extension == "exr" {
-            if let Err(error) = self.canvas.compare_with(path, context) {
-                self.said = Some(error.to_string());
-            }
-        } else if extension == "f32" {
-            let path = std::path::absolute(path).unwrap_or_else(|_| PathBuf::from(path));
-            match self.document.set("fabric.0.motion", path.to_string_lossy().into_owned()) {
-                Ok(()) => self.scrub(0.0),
-                Err(why) => self.said = Some(why),
-            }
-        } else {
-            self.open(path);
-        }
-    }
-
-    /// Puts the camera as it is into the document, which is about to be kept.
-    pub fn keep_camera(&mut self) -> Result<(), String> {
-        let Some(camera) = self.camera.take() else { return Ok(()) };
-        let number = |document: &mut Document, key: &str, value: Option<f64>| match value {
-            Some(value) => document.set(key, value),
-            None => document.reset(key),
-        };
-        let document = &mut self.document;
-        if camera.fit != document.scene_file().camera.fit {
-            document.set("camera.fit", camera.fit)?;
-        }
-        number(document, "camera.yaw_deg", Some(camera.yaw_deg))?;
-        number(document, "camera.pitch_deg", camera.pitch_deg)?;
-        number(document, "camera.distance_mm", camera.distance_mm)?;
-        match camera.target_mm {
-            Some(target) => document.set("camera.target_mm", Value::Array(target.map(Value::Float).to_vec())),
-            None => document.reset("camera.target_mm"),
-        }
-    }
-
-    /// Saves the scene, as it is looked at.
-    pub fn save(&mut self, path: &Path) {
-        let saved = self.keep_camera().and_then(|()| self.document.save(path).map_err(|e| e.to_string()));
-        self.said = Some(match saved {
-            Ok(()) => {
-                self.recent.note(path);
-                format!("saved {}", path.display())
-            }
-            Err(why) => why,
-        });
     }
 }
 

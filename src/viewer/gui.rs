@@ -44,7 +44,8 @@ impl Gui {
             device.physical(),
             device.raw().clone(),
             mode,
-            Options::default(),
+            // Its own shader takes sRGB for a power of 2.2: up to nine levels off where the cloth is dark.
+            Options { srgb_framebuffer: true, ..Options::default() },
         )
         .map_err(failed)?;
         let info = ash::vk::CommandPoolCreateInfo::default()

@@ -13,6 +13,7 @@ pub mod desk;
 pub mod document;
 mod draft;
 mod edit;
+mod filing;
 mod gui;
 pub mod history;
 mod lights;

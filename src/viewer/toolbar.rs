@@ -3,7 +3,6 @@
 use super::canvas::Shows;
 use super::desk::Desk;
 use super::playing::last;
-use super::scripts::screenshot;
 use crate::scene::file::DebugView;
 use std::path::PathBuf;
 use toml::Value;
@@ -22,14 +21,6 @@ pub fn show(ui: &mut egui::Ui, desk: &mut Desk) {
         });
         if desk.shown().is_some_and(|shown| shown.frame_count.is_some()) {
             timeline(ui, desk);
-        }
-        if let Some(said) = desk.said.clone() {
-            ui.horizontal(|ui| {
-                ui.label(said);
-                if ui.small_button("x").clicked() {
-                    desk.said = None;
-                }
-            });
         }
     });
 }
@@ -51,7 +42,7 @@ fn files(ui: &mut egui::Ui, desk: &mut Desk) {
             let lines = desk.keep_camera().map(|()| desk.document.set_lines().join(" "));
             match lines {
                 Ok(lines) => ui.ctx().copy_text(lines),
-                Err(why) => desk.said = Some(why),
+                Err(why) => desk.say(why),
             }
             ui.close();
         }
@@ -71,11 +62,9 @@ fn take_screenshot(desk: &mut Desk) {
     let stem = desk.document.path().with_extension("");
     let free =
         (1..10_000).map(|n| PathBuf::from(format!("{}-{n:04}.png", stem.display()))).find(|p| !p.exists());
-    let Some(path) = free else { return };
-    desk.said = Some(match screenshot(desk, &path) {
-        Ok(()) => format!("wrote {} and its scene", path.display()),
-        Err(error) => error.to_string(),
-    });
+    if let Some(path) = free {
+        desk.take_screenshot(path);
+    }
 }
 
 fn views(ui: &mut egui::Ui, desk: &mut Desk) {
@@ -92,7 +81,7 @@ fn views(ui: &mut egui::Ui, desk: &mut Desk) {
             if ui.selectable_label(view == other, name_of(other)).clicked() {
                 let set = desk.document.set("debug.view", Value::String(name_of(other)));
                 desk.document.end_gesture();
-                desk.said = set.err();
+                desk.say_if_wrong(set);
             }
         }
     });

@@ -10,8 +10,8 @@ use super::commands::Semaphores;
 use super::device::Device;
 use super::error::{VkContext, VulkanError};
 
-/// Formats that hold sRGB values as they are, the best first.
-const FORMATS: [vk::Format; 2] = [vk::Format::B8G8R8A8_UNORM, vk::Format::R8G8B8A8_UNORM];
+/// Formats that encode linear colors in sRGB as they are written, exactly, the best first.
+const FORMATS: [vk::Format; 2] = [vk::Format::B8G8R8A8_SRGB, vk::Format::R8G8B8A8_SRGB];
 
 /// What presenting a picture came to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,7 +6,11 @@
 mod session;
 
 use session::{Session, Shot};
-use worsted::io::picture::read_png;
+use std::path::Path;
+use std::process::Command;
+use worsted::io::picture::{DisplayImage, read_png, write_png};
+use worsted::metrics::coverage::Coverage;
+use worsted::metrics::flip::FlipMap;
 
 /// Size of the window at first, and after it was resized, in pixels.
 const SIZE: [u32; 2] = [900, 640];
@@ -15,6 +19,8 @@ const LARGER: [u32; 2] = [1000, 700];
 const SEARCH: [u32; 2] = [150, 55];
 const SEARCHED: &str = "hair density";
 const NUMBER: [u32; 2] = [244, 107];
+/// Width of the panel beside the picture.
+const PANEL: u32 = 340;
 /// A place of the picture.
 const MIDDLE: [u32; 2] = [500, 350];
 
@@ -55,6 +61,24 @@ fn a_window_opens_is_edited_dragged_resized_and_closed() {
     session.until_settled();
     assert_eq!(session.shot().differing(&after_drag, MIDDLE, 150), 0.0, "what is undone leaves no trace");
 
+    // Saved, the scene is what `render` draws the same picture from.
+    session.press("ctrl+y");
+    let edited = session.until_settled();
+    session.press("ctrl+s");
+    session.wait_for_words();
+    let scene = std::fs::read_to_string(&session.scene).unwrap();
+    assert!(scene.contains("hair_density_per_mm = 30") && scene.contains("# The README's demo"), "{scene}");
+    let rendered = rendered(&session.scene, edited.size);
+    let seen = session.shot().cut(PANEL, edited.size);
+    let everywhere = Coverage::everywhere(seen.pixels.len()).unwrap();
+    let (flip, _) = FlipMap::new(&seen, &rendered).unwrap().mean_and_max(&everywhere).unwrap();
+    if flip > 0.002 {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+        write_png(&folder.join("window-seen.png"), &seen).unwrap();
+        write_png(&folder.join("window-rendered.png"), &rendered).unwrap();
+    }
+    assert!(flip <= 0.002, "FLIP {flip} between what is seen and what is rendered");
+
     session.resize(LARGER);
     let larger = session.until_settled();
     assert!(larger.size[0] > turned.size[0] && larger.size[1] > turned.size[1], "{larger:?}");
@@ -62,11 +86,23 @@ fn a_window_opens_is_edited_dragged_resized_and_closed() {
     session.close();
 }
 
+/// What `worsted render` draws of a scene.
+fn rendered(scene: &Path, [width, height]: [u32; 2]) -> DisplayImage {
+    let picture = scene.with_extension("png");
+    let size = format!("{width}x{height}");
+    let status = Command::new(env!("CARGO_BIN_EXE_worsted"))
+        .args(["render", "--device", "software", "--size", &size, "--samples", "4", "--no-cache", "-q", "-o"])
+        .args([&picture, scene])
+        .status();
+    assert!(status.unwrap().success());
+    read_png(&picture).unwrap()
+}
+
 #[test]
 fn a_script_takes_the_picture_that_render_draws_from_the_scene_beside_it() {
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("shot.png");
-    let session = Session::open(
+    let mut session = Session::open(
         SIZE,
         &[
             "--samples",
@@ -81,22 +117,16 @@ fn a_script_takes_the_picture_that_render_draws_from_the_scene_beside_it() {
     );
     session.ends();
     let taken = read_png(&picture).unwrap();
-    let again = folder.path().join("again.png");
     let scene = std::fs::read_to_string(folder.path().join("shot.toml")).unwrap();
     let size = format!("{}x{}", taken.width, taken.height);
     assert!(scene.starts_with("# worsted render shot.toml") && scene.contains(&size), "{scene}");
-    let status = std::process::Command::new(env!("CARGO_BIN_EXE_worsted"))
-        .args(["render", "--device", "software", "--size", &size, "--samples", "4", "--no-cache", "-o"])
-        .args([&again, &folder.path().join("shot.toml")])
-        .status()
-        .unwrap();
-    assert!(status.success());
-    assert!(read_png(&again).unwrap().pixels == taken.pixels, "what is rendered is what was seen");
+    let again = rendered(&folder.path().join("shot.toml"), [taken.width, taken.height]);
+    assert!(again.pixels == taken.pixels, "what is rendered is what was seen");
 }
 
 #[test]
 fn without_a_display_it_says_what_needs_none() {
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_worsted"))
+    let output = Command::new(env!("CARGO_BIN_EXE_worsted"))
         .args(["view", "models/demo.toml", "--device", "software"])
         .env_remove("DISPLAY")
         .env_remove("WAYLAND_DISPLAY")

@@ -1,9 +1,11 @@
 //! An X server, the program in it, and a hand on its keyboard and pointer.
 
 use std::io::{BufRead, BufReader, Read};
+use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
+use worsted::io::picture::DisplayImage;
 
 /// Longest that anything may take on the slowest machine.
 const PATIENCE: Duration = Duration::from_secs(240);
@@ -33,6 +35,8 @@ pub struct Session {
     window: String,
     log: Receiver<String>,
     heard: Vec<String>,
+    /// The scene that is edited: a copy of the demo.
+    pub scene: PathBuf,
     _home: tempfile::TempDir,
 }
 
@@ -59,8 +63,14 @@ impl Session {
         BufReader::new(server.stdout.as_mut().unwrap()).read_line(&mut number).unwrap();
         let display = format!(":{}", number.trim());
         let home = tempfile::tempdir().unwrap();
+        let scene = home.path().join("demo.toml");
+        for file in ["demo.toml", "stockinette.bcc"] {
+            std::fs::copy(format!("models/{file}"), home.path().join(file)).unwrap();
+        }
         let mut program = Command::new(env!("CARGO_BIN_EXE_worsted"))
-            .args(["view", "models/demo.toml", "-v", "--validate", "--device", "software"])
+            .arg("view")
+            .arg(&scene)
+            .args(["-v", "--validate", "--device", "software"])
             .args(["--size", &format!("{}x{}", size[0], size[1])])
             .arg("--cache")
             .arg(home.path().join("cache"))
@@ -80,8 +90,16 @@ impl Session {
                 }
             }
         });
-        let mut session =
-            Self { server, display, program, window: String::new(), log, heard: Vec::new(), _home: home };
+        let mut session = Self {
+            server,
+            display,
+            program,
+            window: String::new(),
+            log,
+            heard: Vec::new(),
+            scene,
+            _home: home,
+        };
         session.window = session.found_window();
         session
     }
@@ -128,6 +146,11 @@ impl Session {
                 Err(_) => panic!("no picture settled; the log: {:#?}", self.heard),
             }
         }
+    }
+
+    /// Waits until what was said to the user is gone.
+    pub fn wait_for_words(&self) {
+        std::thread::sleep(Duration::from_secs(9));
     }
 
     /// Lets the window show what was done to its panel.
@@ -194,14 +217,14 @@ impl Session {
     }
 
     /// Closes the window as its user does, and holds the program to a good end.
-    pub fn close(self) {
+    pub fn close(mut self) {
         self.focus();
         self.press("ctrl+q");
         self.ends();
     }
 
     /// Waits for the program's end: a good one, without a word of what validation found or was left behind.
-    pub fn ends(mut self) {
+    pub fn ends(&mut self) {
         let started = Instant::now();
         let status = loop {
             if let Some(status) = self.program.try_wait().unwrap() {
@@ -210,7 +233,9 @@ impl Session {
             assert!(started.elapsed() < PATIENCE, "the program does not end");
             std::thread::sleep(Duration::from_millis(100));
         };
-        self.heard.extend(self.log.iter());
+        while let Ok(line) = self.log.recv_timeout(SETTLING) {
+            self.heard.push(line);
+        }
         let mut rest = String::new();
         if let Some(out) = &mut self.program.stdout {
             out.read_to_string(&mut rest).unwrap();
@@ -263,6 +288,18 @@ impl Shot {
 
     pub fn size(&self) -> [u32; 2] {
         [self.width, self.height]
+    }
+
+    /// What it shows of this size from `left` on, down to the lower edge.
+    pub fn cut(&self, left: u32, [width, height]: [u32; 2]) -> DisplayImage {
+        let top = self.height - height;
+        let row = |y: u32| (left..left + width).map(move |x| (y, x));
+        let places = (top..self.height).flat_map(row);
+        let pixels = places.map(|(y, x)| {
+            let [r, g, b] = self.pixels[(y * self.width + x) as usize];
+            [r, g, b, 255]
+        });
+        DisplayImage { width, height, pixels: pixels.collect() }
     }
 
     fn around(&self, [x, y]: [u32; 2], reach: u32) -> Vec<usize> {

@@ -14,7 +14,12 @@ impl Document {
         let mut table = edit::table_of(&self.typed)?;
         overrides::apply(&mut table, assignment)?;
         let candidate = self.with_value_of(&table, assignment);
-        let candidate = match candidate.filter(|typed| edit::table_of(typed).as_ref() == Ok(&table)) {
+        // A table that is left empty means as much as none.
+        let as_good = |typed: &DocumentMut| {
+            edit::table_of(typed)
+                .is_ok_and(|found| found == table || without_empty(&found) == without_empty(&table))
+        };
+        let candidate = match candidate.filter(as_good) {
             Some(candidate) => candidate,
             // Comments are lost where a whole table is set.
             None => {
@@ -33,14 +38,23 @@ impl Document {
         let path = assignment.split_once('=')?.0.trim();
         let mut steps = path.split('.');
         let first = table.get(steps.next()?);
-        let value = steps.try_fold(first?, |value, step| match value {
-            Value::Array(items) => items.get(step.parse::<usize>().ok()?),
-            value => value.get(step),
+        let value = steps.try_fold(first, |value, step| match value {
+            Some(Value::Array(items)) => Some(items.get(step.parse::<usize>().ok()?)),
+            value => Some(value.and_then(|value| value.get(step))),
         })?;
         let mut typed = self.typed.clone();
-        edit::set(&mut typed, path, value).ok()?;
+        match value {
+            Some(value) => edit::set(&mut typed, path, value).ok()?,
+            None => edit::remove(&mut typed, path),
+        }
         Some(typed)
     }
+}
+
+/// The same without tables that hold nothing.
+fn without_empty(table: &toml::Table) -> toml::Table {
+    let holds = |(_, value): &(&String, &Value)| value.as_table().is_none_or(|inner| !inner.is_empty());
+    table.iter().filter(holds).map(|(key, value)| (key.clone(), value.clone())).collect()
 }
 
 #[cfg(test)]
@@ -54,6 +68,9 @@ mod tests {
         std::fs::write(&path, "[fabric]\nmodel = 'a.bcc' # mine\n[yarn]\nply_pitch_mm = 4.0\n").unwrap();
         let mut document = Document::open(&path).unwrap();
         document.assign("yarn.ply_pitch_mm=5").unwrap();
+        document.assign("camera.target_mm=[1, 2, 3]").unwrap();
+        document.assign("camera.fit=null").unwrap();
+        document.assign("camera.target_mm=null").unwrap();
         document.assign("camera.target_mm=[1, 2, 3]").unwrap();
         assert!(document.text().contains("# mine"), "{}", document.text());
         document.assign("yarn.ply_pitch_mm=null").unwrap();
