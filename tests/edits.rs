@@ -1,5 +1,7 @@
 //! A renderer whose scene is edited draws what one that was built for the edited scene draws.
 
+#![expect(clippy::unwrap_used, reason = "the helpers of a test may fail it")]
+
 use std::path::Path;
 use worsted::frame::sampling::Sampling;
 use worsted::frame::tables::Tables;

@@ -1,5 +1,6 @@
 //! The viewer's painter without its window: what it shows, in which order, and that it ends on the picture that
 //! `worsted render` draws.
+#![expect(clippy::unwrap_used, clippy::panic, reason = "the helpers of a test may fail it")]
 #![cfg(feature = "viewer")]
 
 use std::path::{Path, PathBuf};
@@ -43,16 +44,16 @@ fn painter() -> Painter {
     Painter::start(shared().clone(), Kept::NOTHING, || ())
 }
 
-fn next(painter: &Painter) -> Box<Shown> {
+fn next(painter: &Painter) -> Shown {
     match painter.news.recv_timeout(PATIENCE).expect("a picture") {
-        News::Picture(shown) => shown,
+        News::Picture(shown) => *shown,
         News::Trouble(why) => panic!("{why}"),
         News::Ended(error) => panic!("{error}"),
     }
 }
 
 /// Every picture up to the one that nothing better follows.
-fn until_settled(painter: &Painter) -> Vec<Box<Shown>> {
+fn until_settled(painter: &Painter) -> Vec<Shown> {
     let mut all = vec![next(painter)];
     while !all.last().unwrap().settled {
         all.push(next(painter));

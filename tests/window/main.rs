@@ -1,6 +1,7 @@
 //! `worsted view` in a real window: an X server without a screen, and input as a user gives it.
 //!
 //! What the window shows is read off the server; what the painter drew, and of what, off the log that `-v` writes.
+#![expect(clippy::unwrap_used, clippy::panic, reason = "the helpers of a test may fail it")]
 #![cfg(feature = "viewer")]
 
 mod session;
