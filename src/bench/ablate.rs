@@ -248,7 +248,7 @@ mod tests {
 
     #[test]
     fn everything_is_there_and_each_omission_leaves_out_what_it_says() {
-        assert_eq!(left_out(&[], true), ["environment", "id_layer", "motion_layer"]);
+        assert_eq!(left_out(&[], true), ["environment", "id_layer", "motion_layer", "swift_turns"]);
         for omission in OMISSIONS {
             let out = left_out(omission.sets, !omission.sets.is_empty());
             assert!(out.contains(&omission.name), "{}: {out:?}", omission.name);

@@ -2,6 +2,8 @@
 
 use super::bench_args::{Bench, Budget};
 use super::play_args::{LayersArgs, Play};
+#[cfg(feature = "viewer")]
+use super::view_args::View;
 use crate::frame::sampling::Sampling;
 use crate::knit::params::KnitParams;
 use crate::probe;
@@ -113,39 +115,6 @@ pub struct ViewArgs {
     /// `fit`.
     #[arg(long, value_name = "yaw=30,pitch=20,distance=400,target=0:0:0|fit", allow_hyphen_values = true)]
     pub camera: Option<String>,
-}
-
-/// `worsted view`.
-#[cfg(feature = "viewer")]
-#[derive(Debug, ClapArgs)]
-pub struct View {
-    /// What to edit.
-    #[command(flatten)]
-    pub scene: SceneArgs,
-    /// When; as of `render`.
-    #[command(flatten)]
-    pub time: TimeArgs,
-    /// Width and height of the window, in pixels, and from where the scene is seen.
-    #[command(flatten)]
-    pub view: ViewArgs,
-    /// Samples per pixel to which a picture is refined while nothing changes.
-    #[arg(long, default_value_t = 64, value_parser = clap::value_parser!(u32).range(4..=64))]
-    pub samples: u32,
-    /// Compare with this picture of linear radiance (`.exr`); pictures then have its size.
-    #[arg(long, value_name = "FILE.exr")]
-    pub reference: Option<PathBuf>,
-    /// Write the picture that is shown last, when the window closes by itself, and the scene beside it.
-    #[arg(long, value_name = "FILE.png", requires = "exit_after_frames")]
-    pub screenshot: Option<PathBuf>,
-    /// Close the window after so many pictures, or once nothing better follows.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
-    pub exit_after_frames: Option<u64>,
-    /// Bake tables and build pipelines anew, and keep neither.
-    #[arg(long, conflicts_with = "folder")]
-    pub no_cache: bool,
-    /// Where tables and pipelines are kept.
-    #[command(flatten)]
-    pub cache: super::bench_args::CacheArgs,
 }
 
 /// `worsted render`.

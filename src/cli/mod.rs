@@ -23,6 +23,8 @@ mod say;
 mod stress;
 #[cfg(feature = "viewer")]
 mod view;
+#[cfg(feature = "viewer")]
+pub mod view_args;
 
 use crate::error::Error;
 use crate::vulkan::{Device, DeviceOptions, Validation};

@@ -1,8 +1,9 @@
 //! `worsted view`.
 
-use super::args::{Common, View};
+use super::args::Common;
 use super::device_options;
 use super::job::{assignments, kept, parse_size};
+use super::view_args::View;
 use crate::error::Error;
 use crate::frame::check_tables;
 use crate::io::whole::check_target;

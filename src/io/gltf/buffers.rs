@@ -13,6 +13,8 @@ use std::path::{Path, PathBuf};
 /// Bytes in front of the chunks of a GLB, its length at this place of them.
 const GLB_HEADER: usize = 12;
 const GLB_LENGTH_AT: usize = 8;
+/// Bytes of a file's name: no system has longer ones, and data that is spoiled in front looks like one.
+const LONGEST_NAME: usize = 255;
 
 /// What a file's accessors read.
 pub struct Buffers<'a> {
@@ -151,7 +153,13 @@ fn beside(file: &Path, uri: &str) -> Result<PathBuf, String> {
         });
     }
     let path = String::from_utf8(path).map_err(|_| wrong())?;
-    if path.is_empty() || path.contains("://") || path.contains('\0') || Path::new(&path).is_absolute() {
+    let long = path.split('/').any(|name| name.len() > LONGEST_NAME);
+    if path.is_empty()
+        || long
+        || path.contains("://")
+        || path.contains('\0')
+        || Path::new(&path).is_absolute()
+    {
         return Err(wrong());
     }
     Ok(file.parent().unwrap_or(Path::new("")).join(path))

@@ -124,7 +124,12 @@ type Spoiled = (&'static str, fn(&mut Value), &'static str);
 
 #[test]
 fn what_is_wrong_is_said_with_its_place() {
-    let spoiled: [Spoiled; 20] = [
+    let spoiled: [Spoiled; 21] = [
+        (
+            "scheme",
+            |d| d["buffers"][0]["uri"] = json!(format!("d!ta:x;base64,{}", "A".repeat(300))),
+            "buffer 0: expected a file beside",
+        ),
         (
             "path",
             |d| d["animations"][0]["channels"][0]["target"]["path"] = json!("weight"),
