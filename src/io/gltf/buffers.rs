@@ -13,8 +13,8 @@ use std::path::{Path, PathBuf};
 /// Bytes in front of the chunks of a GLB, its length at this place of them.
 const GLB_HEADER: usize = 12;
 const GLB_LENGTH_AT: usize = 8;
-/// Bytes of a file's name: no system has longer ones, and data that is spoiled in front looks like one.
-const LONGEST_NAME: usize = 255;
+/// Bytes of a relative path to a buffer. Data that is spoiled in front looks like a longer one.
+const LONGEST_PATH: usize = 512;
 
 /// What a file's accessors read.
 pub struct Buffers<'a> {
@@ -153,7 +153,7 @@ fn beside(file: &Path, uri: &str) -> Result<PathBuf, String> {
         });
     }
     let path = String::from_utf8(path).map_err(|_| wrong())?;
-    let long = path.split('/').any(|name| name.len() > LONGEST_NAME);
+    let long = path.len() > LONGEST_PATH;
     if path.is_empty()
         || long
         || path.contains("://")
