@@ -188,11 +188,6 @@ impl Model {
     fn check_skins(&self) -> Result<(), FileError> {
         for shown in &self.shown {
             let Some(skin) = shown.skin.and_then(|skin| self.skins[skin].as_ref()) else { continue };
-            if skin.inverse_bind.len() < skin.joints.len() {
-                let (expected, found) = (skin.joints.len(), skin.inverse_bind.len());
-                let message = format!("expected {expected} inverse bind matrices of its skin, found {found}");
-                return Err(FileError::new(&self.file, Place::Item("mesh", shown.shape.mesh), message));
-            }
             let most = skin.joints.len() as u32;
             let named = shown.shape.joints.iter().flatten().flatten();
             if let Some(joint) = named.into_iter().find(|joint| **joint >= most) {

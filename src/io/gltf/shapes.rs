@@ -89,13 +89,10 @@ impl Shape {
             joints.push(reader.integers::<4>(&of, count)?);
             weights.push(reader.floats::<4>(&by, count)?);
         }
-        let short = |found: usize| found != count && found != 0;
-        let lengths = targets
-            .iter()
-            .map(Vec::len)
-            .chain(joints.iter().map(Vec::len))
-            .chain(weights.iter().map(Vec::len));
-        if let Some(found) = lengths.into_iter().find(|found| short(*found)) {
+        // A target that moves no positions has none; a vertex without joints would have nowhere to be.
+        let of_targets = targets.iter().map(Vec::len).filter(|found| *found != 0);
+        let of_skins = joints.iter().map(Vec::len).chain(weights.iter().map(Vec::len));
+        if let Some(found) = of_targets.chain(of_skins).find(|found| *found != count) {
             return Err(error(&format!("expected {count} vertices in every attribute, found {found}")));
         }
         Ok(Some(Self { mesh, positions, targets, joints, weights, chains, junctions }))

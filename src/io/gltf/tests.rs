@@ -124,7 +124,22 @@ type Spoiled = (&'static str, fn(&mut Value), &'static str);
 
 #[test]
 fn what_is_wrong_is_said_with_its_place() {
-    let spoiled: [Spoiled; 21] = [
+    let spoiled: [Spoiled; 22] = [
+        (
+            "joints",
+            |d| {
+                let accessors = d["accessors"].as_array_mut().unwrap();
+                let first = accessors.len();
+                for kind in [5123, 5126] {
+                    let none = json!({ "bufferView": 0, "componentType": kind, "count": 0, "type": "VEC4" });
+                    accessors.push(none);
+                }
+                let attributes = &mut d["meshes"][0]["primitives"][0]["attributes"];
+                attributes["JOINTS_0"] = json!(first);
+                attributes["WEIGHTS_0"] = json!(first + 1);
+            },
+            "expected 4 vertices in every attribute, found 0",
+        ),
         (
             "scheme",
             |d| d["buffers"][0]["uri"] = json!(format!("d!ta:x;base64,{}", "AAA/".repeat(200))),
