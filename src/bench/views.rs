@@ -107,8 +107,8 @@ pub fn first_fabric(scene: &Scene) -> Result<&Fabric, Error> {
 /// origin: the nearest point to the eye of those by that line, or where there is a hole, the nearest to the line.
 fn front(scene: &Scene, camera: &Camera) -> DVec3 {
     let back = camera.world_from_view.z_axis;
-    let radius_mm = scene.fabrics.iter().map(|f| f.yarn.outer_radius_mm()).fold(0.0, f64::max);
-    let points = || scene.fabrics.iter().flat_map(Fabric::hull_points).map(|p| p - scene.origin_mm);
+    let radius_mm = scene.thickest_mm();
+    let points = || scene.hull_points();
     let aside = |p: DVec3| (p - camera.target_world).reject_from_normalized(back).length();
     let nearest = |p: &DVec3, q: &DVec3| p.dot(back).total_cmp(&q.dot(back));
     let by_the_line = points().filter(|&p| aside(p) < FRONT_RADII * radius_mm).max_by(nearest);

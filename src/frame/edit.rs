@@ -2,7 +2,7 @@
 
 use super::keeping::KeptPipelines;
 use super::lighting::LightRoom;
-use super::tables::Tables;
+use super::tables::{Tables, features_by};
 use super::{Renderer, Request};
 use crate::io::kept::Kept;
 use crate::passes::resolve::ResolvePass;
@@ -10,7 +10,6 @@ use crate::passes::targets::Targets;
 use crate::passes::tonemap::TonemapPass;
 use crate::scene::animation::AnimationTable;
 use crate::scene::camera::Camera;
-use crate::scene::features::Features;
 use crate::scene::file::{CameraTable, DebugView, DisplayTable, SceneFile};
 use crate::scene::light::{LightTable, check_lights};
 use crate::scene::{Scene, SceneError};
@@ -129,11 +128,8 @@ impl Renderer {
         if same_but_for_these != *file {
             return Ok(false);
         }
-        let features_of = |file: &SceneFile, renderer: &Self| -> Vec<_> {
-            let of = |fabric| Features::new(file, fabric, renderer.request.statistics);
-            renderer.scene.fabrics.iter().map(of).collect()
-        };
-        if features_of(file, self) != features_of(shown, self) {
+        let features = |file| features_by(file, &self.scene, &self.request);
+        if features(file) != features(shown) {
             return Ok(false);
         }
         if file.light != shown.light && self.set_lights(file.light()).is_err() {

@@ -5,6 +5,7 @@ use super::bake::{Bakes, skies};
 use super::keeping::{Baked, Bakery};
 use crate::io::kept::Kept;
 use crate::scene::features::Features;
+use crate::scene::file::SceneFile;
 use crate::scene::{Fabric, Scene};
 use crate::vulkan::VulkanError;
 use crate::yarn::table::fiber_table;
@@ -74,7 +75,12 @@ impl Tables {
 
 /// What each fabric of a scene needs.
 pub fn features(scene: &Scene, request: &Request) -> Vec<Features> {
-    scene.fabrics.iter().map(|fabric| Features::new(&scene.file, fabric, request.statistics)).collect()
+    features_by(&scene.file, scene, request)
+}
+
+/// What each fabric of a scene would need if its file said this.
+pub fn features_by(file: &SceneFile, scene: &Scene, request: &Request) -> Vec<Features> {
+    scene.fabrics.iter().map(|fabric| Features::new(file, fabric, request.statistics)).collect()
 }
 
 fn shape(scene: &Scene, features: &[Features]) -> Vec<Shape> {

@@ -193,7 +193,7 @@ impl Movers {
         }
         let origin = scene.origin_mm;
         let around = points.iter().map(|p| *p - origin);
-        let radius_mm = scene.fabrics.iter().map(|f| f.yarn.outer_radius_mm()).fold(0.0, f64::max);
+        let radius_mm = scene.thickest_mm();
         scene.file.camera = Camera::fitted(&scene.file.camera, size, origin, around, radius_mm);
         Ok(())
     }

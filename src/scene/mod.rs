@@ -26,6 +26,7 @@ use crate::io::picture::LinearImage;
 use crate::knit::error::KnitError;
 use camera::Camera;
 pub use fabric::Fabric;
+use file::CameraTable;
 pub use file::SceneFile;
 use glam::DVec3;
 use std::sync::Arc;
@@ -66,9 +67,22 @@ pub struct Scene {
 impl Scene {
     /// The camera that the scene asks for, for a picture of `size` pixels.
     pub fn camera(&self, size: [u32; 2]) -> Camera {
+        Camera::new(&self.file.camera, size, self.origin_mm, self.hull_points(), self.thickest_mm())
+    }
+
+    /// The table of the same camera with nothing left to be fitted.
+    pub fn fitted_camera(&self, size: [u32; 2]) -> CameraTable {
+        Camera::fitted(&self.file.camera, size, self.origin_mm, self.hull_points(), self.thickest_mm())
+    }
+
+    /// Positions that the picture must hold, relative to the origin.
+    pub fn hull_points(&self) -> impl Iterator<Item = DVec3> + Clone {
         let origin = self.origin_mm;
-        let points = self.fabrics.iter().flat_map(Fabric::hull_points).map(move |p| p - origin);
-        let radius_mm = self.fabrics.iter().map(|f| f.yarn.outer_radius_mm()).fold(0.0, f64::max);
-        Camera::new(&self.file.camera, size, origin, points, radius_mm)
+        self.fabrics.iter().flat_map(Fabric::hull_points).map(move |p| p - origin)
+    }
+
+    /// The largest outer radius of its yarns, in mm.
+    pub fn thickest_mm(&self) -> f64 {
+        self.fabrics.iter().map(|f| f.yarn.outer_radius_mm()).fold(0.0, f64::max)
     }
 }

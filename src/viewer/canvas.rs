@@ -70,7 +70,7 @@ pub enum Shows {
 #[derive(Default)]
 pub struct Canvas {
     texture: Option<TextureHandle>,
-    current: Option<(Arc<LinearImage>, DisplayTable)>,
+    display: DisplayTable,
     other: Option<Other>,
     /// How they are shown.
     pub shows: Shows,
@@ -96,18 +96,22 @@ impl Canvas {
 
     /// Takes a picture to show.
     pub fn take(&mut self, context: &egui::Context, shown: &Shown) {
-        let image = color_image(&shown.picture);
+        let image = color_image(shown.picture.size, &shown.picture.display);
         match &mut self.texture {
             Some(texture) => texture.set(image, TextureOptions::LINEAR),
             None => self.texture = Some(context.load_texture("picture", image, TextureOptions::LINEAR)),
         }
-        self.current = Some((Arc::new(light_of(&shown.picture)), shown.file.display.clone()));
+        self.display.clone_from(&shown.file.display);
         self.judge(context, shown);
     }
 
     /// Keeps the picture as it is, to compare others with it.
     pub fn keep(&mut self, context: &egui::Context, shown: &Shown) {
-        let texture = context.load_texture("kept", color_image(&shown.picture), TextureOptions::LINEAR);
+        let texture = context.load_texture(
+            "kept",
+            color_image(shown.picture.size, &shown.picture.display),
+            TextureOptions::LINEAR,
+        );
         let light = Arc::new(light_of(&shown.picture));
         self.set_other(Other { label: "the picture kept".into(), texture, light, is_reference: false });
     }
@@ -118,8 +122,7 @@ impl Canvas {
     /// One that cannot be read, or shown.
     pub fn compare_with(&mut self, path: &Path, context: &egui::Context) -> Result<(), Error> {
         let light = read_exr(path)?;
-        let display = self.current.as_ref().map(|(_, display)| display.clone()).unwrap_or_default();
-        let image = shown_image(&light, &display)?;
+        let image = shown_image(&light, &self.display)?;
         let texture = context.load_texture("reference", image, TextureOptions::LINEAR);
         let label = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         self.set_other(Other { label, texture, light: Arc::new(light), is_reference: true });
@@ -142,13 +145,14 @@ impl Canvas {
 
     /// Starts to work out how far the picture is from the other, on another thread, unless one is at it.
     fn judge(&mut self, context: &egui::Context, shown: &Shown) {
-        let (Some(other), Some((light, display))) = (&self.other, &self.current) else { return };
+        let Some(other) = &self.other else { return };
         let same_size = [other.light.width, other.light.height] == shown.picture.size;
         if self.judging.is_some() || !same_size || !shown.own_tables {
             return;
         }
         let (tell, judging) = channel();
-        let (test, reference, display) = (light.clone(), other.light.clone(), display.measured());
+        let (test, reference, display) =
+            (light_of(&shown.picture), other.light.clone(), self.display.measured());
         let (ms, samples) = (shown.stats.frame_ms.median, shown.stats.samples);
         let context = context.clone();
         std::thread::spawn(move || {
@@ -156,8 +160,7 @@ impl Canvas {
             if let Ok(found) = compare(&test, &reference, &display) {
                 let flip = found.error.covered.flip_mean;
                 let map = found.flip.heatmap();
-                let size = [map.width as usize, map.height as usize];
-                let image = ColorImage::from_rgba_unmultiplied(size, map.pixels.as_flattened());
+                let image = color_image([map.width, map.height], &map.pixels);
                 drop(tell.send((Judged { flip, ms, samples }, image)));
                 context.request_repaint();
             }
@@ -279,9 +282,8 @@ fn light_of(picture: &Picture) -> LinearImage {
     LinearImage { width, height, pixels: picture.linear.clone() }
 }
 
-fn color_image(picture: &Picture) -> ColorImage {
-    let size = picture.size.map(|side| side as usize);
-    ColorImage::from_rgba_unmultiplied(size, picture.display.as_flattened())
+fn color_image(size: [u32; 2], pixels: &[[u8; 4]]) -> ColorImage {
+    ColorImage::from_rgba_unmultiplied(size.map(|side| side as usize), pixels.as_flattened())
 }
 
 /// A picture of radiance as the scene shows it.
@@ -296,6 +298,5 @@ fn shown_image(light: &LinearImage, display: &DisplayTable) -> Result<ColorImage
     }
     let shown = DisplayImage::from_linear(&over, &display.measured())
         .map_err(|why| Error::Failed(why.to_string()))?;
-    let size = [shown.width as usize, shown.height as usize];
-    Ok(ColorImage::from_rgba_unmultiplied(size, shown.pixels.as_flattened()))
+    Ok(color_image([shown.width, shown.height], &shown.pixels))
 }

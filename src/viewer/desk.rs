@@ -134,7 +134,6 @@ impl Desk {
                     self.trouble = None;
                     self.pictures += 1;
                     self.canvas.take(context, &shown);
-                    self.live.take(&shown, &self.canvas);
                     self.note(&shown);
                     self.shown = Some(shown);
                     self.write_screenshot();
@@ -177,7 +176,7 @@ impl Desk {
         if self.live.is_open {
             egui::Panel::right("live").exact_size(FIGURES_POINTS).show(ui, |ui| {
                 egui::ScrollArea::vertical().show(ui, |ui| {
-                    self.live.show(ui, self.shown.as_deref(), &mut self.look.statistics);
+                    Live::show(ui, self.shown.as_deref(), &self.canvas.judged, &mut self.look.statistics);
                 });
             });
         }

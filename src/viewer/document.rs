@@ -57,12 +57,7 @@ impl Good {
     }
 
     fn get(&self, path: &str) -> Option<&Value> {
-        let mut steps = path.split('.');
-        let first = self.values.get(steps.next()?);
-        steps.fold(first, |value, step| match value? {
-            Value::Array(items) => items.get(step.parse::<usize>().ok()?),
-            value => value.get(step),
-        })
+        value_at(&self.values, path)
     }
 }
 
@@ -362,6 +357,16 @@ impl Document {
         }
         Ok(())
     }
+}
+
+/// What stands at a dotted path; a number names an element of an array.
+fn value_at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
+    let mut steps = path.split('.');
+    let first = table.get(steps.next()?);
+    steps.fold(first, |value, step| match value? {
+        Value::Array(items) => items.get(step.parse::<usize>().ok()?),
+        value => value.get(step),
+    })
 }
 
 /// The number and the key of `light.0.kind`.

@@ -1,6 +1,6 @@
 //! What the last picture took, what it is made of, and what it did without.
 
-use super::canvas::{Canvas, Judged};
+use super::canvas::Judged;
 use super::desk::Look;
 use super::painter::Shown;
 use egui_plot::{Line, Plot, PlotPoints, Points};
@@ -9,23 +9,17 @@ use egui_plot::{Line, Plot, PlotPoints, Points};
 pub struct Live {
     /// Whether it is shown.
     pub is_open: bool,
-    judged: Vec<Judged>,
     counted: bool,
     samples: u32,
 }
 
 impl Default for Live {
     fn default() -> Self {
-        Self { is_open: true, judged: Vec::new(), counted: false, samples: 0 }
+        Self { is_open: true, counted: false, samples: 0 }
     }
 }
 
 impl Live {
-    /// Takes note of a picture.
-    pub fn take(&mut self, _shown: &Shown, canvas: &Canvas) {
-        self.judged.clone_from(&canvas.judged);
-    }
-
     /// Whether pictures are to be drawn otherwise than the last time that somebody asked.
     pub fn look_changed(&mut self, look: &Look) -> bool {
         let now = (look.statistics, look.most_samples);
@@ -34,8 +28,8 @@ impl Live {
         changed
     }
 
-    /// Shows the figures.
-    pub fn show(&mut self, ui: &mut egui::Ui, shown: Option<&Shown>, statistics: &mut bool) {
+    /// Shows the figures, and errors against another picture, the last one at the end.
+    pub fn show(ui: &mut egui::Ui, shown: Option<&Shown>, judged: &[Judged], statistics: &mut bool) {
         ui.heading("Picture");
         ui.checkbox(statistics, "count fibers").on_hover_text("Counting takes time of its own");
         let Some(shown) = shown else { return };
@@ -70,8 +64,8 @@ impl Live {
         for note in &shown.notes {
             ui.label(egui::RichText::new(note).weak());
         }
-        if !self.judged.is_empty() {
-            self.plot(ui);
+        if let Some(last) = judged.last() {
+            plot(ui, judged, last);
         }
         ui.separator();
         ui.collapsing("Left out", |ui| {
@@ -91,21 +85,20 @@ impl Live {
             }
         });
     }
+}
 
-    /// Error against time of the pictures that were compared, the last one marked.
-    fn plot(&self, ui: &mut egui::Ui) {
-        ui.separator();
-        ui.label("FLIP against milliseconds");
-        let points: Vec<[f64; 2]> = self.judged.iter().map(|judged| [judged.ms, judged.flip]).collect();
-        if let Some(last) = self.judged.last() {
-            row(ui, "FLIP", format!("{:.4} at {} samples", last.flip, last.samples));
-        }
-        let last: PlotPoints<'_> = points.last().copied().into_iter().collect();
-        Plot::new("error").height(140.0).allow_scroll(false).include_x(0.0).include_y(0.0).show(ui, |plot| {
-            plot.line(Line::new("before", PlotPoints::from(points)));
-            plot.points(Points::new("now", last).radius(5.0));
-        });
-    }
+/// Error against time of the pictures that were compared, the last one marked.
+fn plot(ui: &mut egui::Ui, judged: &[Judged], last: &Judged) {
+    ui.separator();
+    ui.label("FLIP against milliseconds");
+    row(ui, "FLIP", format!("{:.4} at {} samples", last.flip, last.samples));
+    let point = |judged: &Judged| [judged.ms, judged.flip];
+    let points: PlotPoints<'_> = judged.iter().map(point).collect();
+    let now = PlotPoints::from(vec![point(last)]);
+    Plot::new("error").height(140.0).allow_scroll(false).include_x(0.0).include_y(0.0).show(ui, |plot| {
+        plot.line(Line::new("before", points));
+        plot.points(Points::new("now", now).radius(5.0));
+    });
 }
 
 fn row(ui: &mut egui::Ui, what: &str, value: String) {

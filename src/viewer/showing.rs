@@ -9,7 +9,6 @@ use crate::frame::{Picture, Renderer, Request};
 use crate::io::kept::Kept;
 use crate::motion::mover::Movers;
 use crate::scene::Scene;
-use crate::scene::camera::Camera;
 use crate::scene::file::{CameraTable, SceneFile};
 use crate::scene::models::Models;
 use crate::shaders::ShaderSet;
@@ -141,7 +140,7 @@ impl Showing {
         let mut stats = drawn.stats().clone();
         stats.set_gpu_bytes(renderer.device());
         Shown {
-            camera: fitted(renderer),
+            camera: scene.fitted_camera(renderer.request().size),
             picture,
             stats,
             file: scene.file.clone(),
@@ -246,12 +245,4 @@ impl Moving {
         let poser = renderer.poser(movers, asked.into_iter());
         Ok(Some(Self { times, poser, movers: for_cameras, at: None, fitted: None }))
     }
-}
-
-/// The camera of a renderer with nothing left to be fitted.
-fn fitted(renderer: &Renderer) -> CameraTable {
-    let scene = renderer.scene();
-    let points = scene.fabrics.iter().flat_map(|f| f.hull_points()).map(|p| p - scene.origin_mm);
-    let radius_mm = scene.fabrics.iter().map(|f| f.yarn.outer_radius_mm()).fold(0.0, f64::max);
-    Camera::fitted(&scene.file.camera, renderer.request().size, scene.origin_mm, points, radius_mm)
 }

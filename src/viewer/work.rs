@@ -67,8 +67,8 @@ pub(super) struct Work {
     remade: bool,
     /// Scenes that were made so far: tables are of one of them.
     made: u64,
-    /// Of which one tables are being baked.
-    baking: Option<(u64, JoinHandle<()>)>,
+    /// Who bakes the tables of one of them.
+    baking: Option<JoinHandle<()>>,
     next: Stage,
 }
 
@@ -114,7 +114,7 @@ impl Work {
                         self.trouble_is_told(Self::follow)?;
                     }
                     Message::Baked(made, tables) => {
-                        self.baking.take().map(|(_, thread)| thread.join());
+                        self.baking.take().map(JoinHandle::join);
                         self.trouble_is_told(move |work| work.take_tables(made, tables))?;
                     }
                     Message::Stop => return Ok(()),
@@ -254,7 +254,7 @@ impl Work {
             // Where nobody wants them any more they are kept for the next time.
             drop(inbox.send(Message::Baked(made, Tables::bake(&scene, &request, &kept))));
         };
-        self.baking = Some((made, std::thread::spawn(bake)));
+        self.baking = Some(std::thread::spawn(bake));
     }
 
     fn revision(&self) -> u64 {

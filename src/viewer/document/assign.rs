@@ -1,6 +1,6 @@
 //! `--set` for a document.
 
-use super::{Document, Good, edit, one_line};
+use super::{Document, Good, edit, one_line, value_at};
 use crate::scene::overrides;
 use toml::Value;
 use toml_edit::DocumentMut;
@@ -29,21 +29,15 @@ impl Document {
         };
         self.good = Good::of(&candidate)?;
         self.typed = candidate;
-        self.resets.borrow_mut().clear();
+        self.touched();
         Ok(())
     }
 
     /// The text with the value that the assignment gave its key, where that is a single one.
     fn with_value_of(&self, table: &toml::Table, assignment: &str) -> Option<DocumentMut> {
         let path = assignment.split_once('=')?.0.trim();
-        let mut steps = path.split('.');
-        let first = table.get(steps.next()?);
-        let value = steps.try_fold(first, |value, step| match value {
-            Some(Value::Array(items)) => Some(items.get(step.parse::<usize>().ok()?)),
-            value => Some(value.and_then(|value| value.get(step))),
-        })?;
         let mut typed = self.typed.clone();
-        match value {
+        match value_at(table, path) {
             Some(value) => edit::set(&mut typed, path, value).ok()?,
             None => edit::remove(&mut typed, path),
         }
