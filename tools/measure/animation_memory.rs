@@ -1,17 +1,22 @@
 //! Whether playing holds no more memory the longer it goes on.
 
+use crate::ALLOCATOR;
 use crate::report::{Verdicts, print_columns, print_head};
 use crate::stage::{Stage, joined, request};
+use memory_stats::memory_stats;
+use stats_alloc::Region;
+use std::alloc::System;
 use std::path::{Path, PathBuf};
-use worsted::bench::clock::host_peak_bytes;
 use worsted::error::Error;
 use worsted::frame::Renderer;
 use worsted::io::error::FileError;
 use worsted::motion::mover::Movers;
 use worsted::scene::Scene;
 
-/// Most that the peak may grow by from a tenth of the frames to all of them.
-const MOST_GROWTH_BYTES: f64 = 8e6;
+/// Most that this program's heap may grow by from a tenth of the frames to all of them: frames under way differ.
+const MOST_GROWTH_BYTES: f64 = 2e6;
+/// The same of the process where nothing is drawn: the C library keeps some of what is freed.
+const MOST_PROCESS_GROWTH_BYTES: f64 = 8e6;
 /// Rows of the table.
 const ROWS: u64 = 10;
 /// Fewest pixels that can be drawn to some effect, and frames between two of them.
@@ -61,27 +66,62 @@ pub fn run(stage: &Stage, options: &Options) -> Result<(), Error> {
         format!("every {}th of them drawn, {width} x {height} pixels, 1 sample", options.draw_every),
     ];
     print_head("Memory while playing", stage.device(), &lines);
-    print_columns(&["frames played", "peak memory MB"]);
+    print_columns(&["frames played", "pictures", "program's heap MB", "device MB", "process MB"]);
+    let start = Region::new(ALLOCATOR);
     let mut movers = Movers::open(&scene)?;
     movers.fix_camera(&mut scene, SIZE)?;
     let mut renderer = Renderer::new(stage.device(), scene, request(SIZE, 1, false)?)?;
     let mut poser = renderer.poser(movers, (0..options.frames).map(|frame| frame as f64));
-    let (mut played, mut early, mut last) = (0, f64::NAN, f64::NAN);
+    let (mut played, mut pictures) = (0, 0);
+    let mut memory: Vec<Memory> = Vec::new();
     while let Some(mut posed) = poser.next_frame()? {
         renderer.pose(&mut posed)?;
         poser.give_back(posed);
         if played % options.draw_every.max(1) == 0 {
             renderer.render(&|_| ())?;
+            pictures += 1;
         }
         played += 1;
         if played % (options.frames / ROWS).max(1) == 0 {
-            last = host_peak_bytes().map_or(f64::NAN, |bytes| bytes as f64);
-            early = if early.is_nan() { last } else { early };
-            println!("| {played} | {:.1} |", last / 1e6);
+            let now = Memory::now(stage, &start);
+            let [heap, device, process] = [now.heap, now.device, now.process].map(|bytes| bytes / 1e6);
+            println!("| {played} | {pictures} | {heap:.2} | {device:.2} | {process:.1} |");
+            memory.push(now);
         }
     }
+    let grown = |of: fn(&Memory) -> f64| {
+        memory.first().zip(memory.last()).map_or(f64::NAN, |(first, last)| of(last) - of(first))
+    };
     let mut verdicts = Verdicts::default();
     verdicts.at_least("frames played", played as f64, options.frames as f64);
-    verdicts.at_most("bytes by which the peak grew", last - early, MOST_GROWTH_BYTES);
+    verdicts.at_most("bytes by which the program's heap grew", grown(|m| m.heap), MOST_GROWTH_BYTES);
+    verdicts.at_most("bytes by which the device's memory grew", grown(|m| m.device), 0.0);
+    if pictures <= 1 {
+        // A driver may keep more for itself from one picture on than from those before.
+        verdicts.at_most("bytes by which the process grew", grown(|m| m.process), MOST_PROCESS_GROWTH_BYTES);
+    }
     verdicts.finish()
+}
+
+/// Bytes that are held; NaN where nobody says.
+#[derive(Clone, Copy)]
+struct Memory {
+    /// By this program's own code.
+    heap: f64,
+    /// On the device, for this program.
+    device: f64,
+    /// By the process in all, what the driver needs of its own included.
+    process: f64,
+}
+
+impl Memory {
+    fn now(stage: &Stage, start: &Region<'_, System>) -> Self {
+        let heap = start.change();
+        let bytes = |count: usize| count as f64;
+        Self {
+            heap: bytes(heap.bytes_allocated) - bytes(heap.bytes_deallocated),
+            device: stage.device().memory_bytes().values().map(|bytes| *bytes as f64).sum(),
+            process: memory_stats().map_or(f64::NAN, |stats| bytes(stats.physical_mem)),
+        }
+    }
 }

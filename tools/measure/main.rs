@@ -26,8 +26,14 @@ mod turntable;
 
 use clap::{Parser, Subcommand};
 use stage::Stage;
+use stats_alloc::{INSTRUMENTED_SYSTEM, StatsAlloc};
+use std::alloc::System;
 use std::process::ExitCode;
 use worsted::error::Error;
+
+/// Counts what is allocated, for `animation-memory`.
+#[global_allocator]
+static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
 /// What can be typed.
 #[derive(Debug, Parser)]
