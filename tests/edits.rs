@@ -8,7 +8,7 @@ use worsted::frame::tables::Tables;
 use worsted::frame::{Picture, Renderer, Request};
 use worsted::io::kept::Kept;
 use worsted::scene::Scene;
-use worsted::vulkan::DeviceChoice;
+use worsted::vulkan::{Device, DeviceChoice, DeviceOptions};
 
 #[path = "support/device.rs"]
 mod device;
@@ -156,4 +156,44 @@ fn old_tables_stand_for_new_ones_only_where_they_have_the_same_shape() {
         difference(&preview, &right) < 0.1 * difference(&before, &right),
         "the preview is far from the picture"
     );
+}
+
+#[test]
+fn tables_are_on_a_device_once_and_go_with_the_last_that_draws_with_them() {
+    let options = DeviceOptions { choice: DeviceChoice::Software, ..Default::default() };
+    let device = Device::new(&options).unwrap();
+    let bytes_of = |name: &str| device.memory_bytes().get(name).copied().unwrap_or(0);
+    let tables = Tables::bake(&scene(&[]), &request(SIZE, 4), &Kept::NOTHING).unwrap();
+    let of = |sets: &[&str]| {
+        Renderer::with_tables(&device, scene(sets), request(SIZE, 4), tables.clone(), &Kept::NOTHING).unwrap()
+    };
+    let first = of(&[]);
+    let once = ["core normals", "scattering table", "self-shadow table"].map(bytes_of);
+    assert!(once.iter().all(|bytes| *bytes > 0), "{once:?}");
+    let second = of(&["yarn.ply_pitch_mm=3"]);
+    assert_eq!(["core normals", "scattering table", "self-shadow table"].map(bytes_of), once);
+    assert!(bytes_of("curves") > 0);
+    drop((first, second, tables));
+    Device::shutdown(device).unwrap();
+}
+
+#[test]
+fn a_fabric_comes_to_rest_only_where_it_is_made_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("waving.gltf");
+    let knit = std::process::Command::new(env!("CARGO_BIN_EXE_worsted"))
+        .args(["knit", "stockinette", "--wales", "2", "--courses", "2", "--animate", "wave", "-o"])
+        .arg(&path)
+        .status();
+    assert!(knit.unwrap().success());
+    let scene = |sets: &[&str]| {
+        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+        Scene::load(&path, &sets).unwrap()
+    };
+    let at = ["animation.frame=2"];
+    let mut renderer = Renderer::new(shared(DeviceChoice::Software), scene(&at), request(SIZE, 4)).unwrap();
+    assert!(renderer.edit_in_place(&scene(&["animation.frame=5"]).file).unwrap());
+    assert!(!renderer.edit_in_place(&scene(&[]).file).unwrap(), "to rest");
+    renderer = Renderer::new(shared(DeviceChoice::Software), scene(&[]), request(SIZE, 4)).unwrap();
+    assert!(!renderer.edit_in_place(&scene(&at).file).unwrap(), "from rest");
 }

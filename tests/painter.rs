@@ -107,6 +107,23 @@ fn an_edit_is_seen_before_its_tables_are_there_and_ends_with_them() {
 }
 
 #[test]
+fn a_value_that_is_dragged_there_and_back_leaves_no_trace() {
+    let painter = painter();
+    painter.want(wanted(&[]));
+    until_settled(&painter);
+    for pitch in ["4.25", "5.5", "7.0"] {
+        let sets = &[&*format!("yarn.ply_pitch_mm={pitch}"), "camera.yaw_deg=5"];
+        let revision = painter.want(Wanted { moving: true, ..wanted(sets) });
+        let shown = next(&painter);
+        assert!(shown.revision == revision && !shown.own_tables && !shown.settled);
+        assert_eq!(shown.file.yarn["ply_pitch_mm"].as_float(), pitch.parse().ok());
+    }
+    painter.want(wanted(&["camera.yaw_deg=5"]));
+    let shown = until_settled(&painter);
+    assert!(shown.last().unwrap().picture.display == rendered(&["camera.yaw_deg=5"], 16));
+}
+
+#[test]
 fn only_what_was_wanted_last_is_drawn_to_the_end() {
     let painter = painter();
     let mut last = 0;

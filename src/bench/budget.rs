@@ -57,6 +57,13 @@ pub struct Promise {
     pub measured_on: String,
 }
 
+impl Promise {
+    /// FLIP and milliseconds as they were measured, in proportion to the scene's work: without the margins.
+    pub fn expected(&self) -> (f64, f64) {
+        (self.error / ERROR_MARGIN, self.ms / TIME_MARGIN)
+    }
+}
+
 /// Why nothing is promised; one line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Refusal {

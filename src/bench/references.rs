@@ -1,6 +1,6 @@
 //! Traced references, kept by what decides them: made once, never half-written, rebuilt where damaged.
 
-use super::truth::{Floor, Truth, TruthSettings, trace};
+use super::truth::{Floor, Progress, Truth, TruthSettings, trace};
 use crate::error::Error;
 use crate::io::cache::Cache;
 use crate::io::error::FileError;
@@ -56,16 +56,16 @@ pub fn is_kept(cache: &Cache, key: u64) -> bool {
     read(cache, key).is_some()
 }
 
-/// The reference of the scene, from the cache or traced; `progress` is told the share done.
+/// The reference of the scene, from the cache or traced.
 ///
 /// # Errors
-/// Too many fibers; files that cannot be written.
+/// Too many fibers; files that cannot be written; those of `progress`: the next time it goes on from there.
 pub fn reference(
     cache: &Cache,
     scene: &Scene,
     size: [u32; 2],
     settings: &TruthSettings,
-    progress: &mut dyn FnMut(f64),
+    progress: &mut Progress<'_>,
 ) -> Result<Truth, Error> {
     let key = key(scene, size, settings);
     if let Some(kept) =
@@ -192,7 +192,11 @@ mod tests {
         let (scene, cache) = (place.scene(&[]), place.cache());
         let get = || {
             let mut told = 0;
-            let truth = reference(&cache, &scene, SIZE, &settings, &mut |_| told += 1).unwrap();
+            let mut tell = |_| {
+                told += 1;
+                Ok(())
+            };
+            let truth = reference(&cache, &scene, SIZE, &settings, &mut tell).unwrap();
             (truth, told)
         };
         let (first, told) = get();
@@ -218,5 +222,23 @@ mod tests {
         other.write(&picture).unwrap();
         assert!(get().1 > 0);
         assert_eq!(std::fs::read_dir(picture.parent().unwrap()).unwrap().count(), 2, "no part is left");
+    }
+
+    #[test]
+    fn one_that_is_stopped_goes_on_where_it_was() {
+        let (place, settings) = (Place::new(), TruthSettings { samples: 512, floors: Vec::new() });
+        let (scene, cache) = (place.scene(&[]), place.cache());
+        let mut stop = |share| if share > 0.4 { Err(Error::Failed("stopped".into())) } else { Ok(()) };
+        let stopped = reference(&cache, &scene, SIZE, &settings, &mut stop).unwrap_err();
+        assert_eq!(stopped.to_string(), "stopped");
+        let mut shares = Vec::new();
+        let mut tell = |share| {
+            shares.push(share);
+            Ok(())
+        };
+        let gone_on = reference(&cache, &scene, SIZE, &settings, &mut tell).unwrap();
+        assert!(shares.first().is_some_and(|share| *share > 0.4), "{shares:?}");
+        let other = Cache::new(Some(&place.folder.path().join("other"))).unwrap();
+        assert_eq!(gone_on, reference(&other, &scene, SIZE, &settings, &mut |_| Ok(())).unwrap());
     }
 }

@@ -83,6 +83,7 @@ pub fn run(device: &Arc<Device>, plan: &Plan, tell: &mut dyn FnMut(f64, &str)) -
         let doing = format!("reference, {}", prepared.view.name);
         let truth = reference(&plan.cache, &prepared.scene, plan.size, &plan.truth, &mut |share| {
             progress.tell(traced * share, &doing);
+            Ok(())
         })?;
         progress.done += traced;
         report.views.push(view_facts(plan, prepared, &truth)?);

@@ -119,16 +119,20 @@ fn rest(both: &LinearImage, first: &LinearImage, samples: f64, count: f64) -> Li
     LinearImage { width: both.width, height: both.height, pixels }
 }
 
-/// Traces a reference and its floors, going on from what `part` holds; `progress` is told the share done.
+/// Is told the share done; where it fails, so does what tells it.
+pub type Progress<'a> = dyn FnMut(f64) -> Result<(), Error> + 'a;
+
+/// Traces a reference and its floors, going on from what `part` holds.
 ///
 /// # Errors
-/// Too many fibers; samples that are no numbers; files that cannot be written.
+/// Too many fibers; samples that are no numbers; files that cannot be written; those of `progress`, with what was done by
+/// then kept in `part`.
 pub fn trace(
     scene: &Scene,
     size: [u32; 2],
     settings: &TruthSettings,
     part: &Path,
-    progress: &mut dyn FnMut(f64),
+    progress: &mut Progress<'_>,
 ) -> Result<Truth, Error> {
     let trace = TraceSettings::default();
     let (tracer, chord_error) = tracer(scene, size, trace)?;
@@ -147,12 +151,12 @@ pub fn trace(
                 done_before += last - settings.samples as f64;
             }
             last = samples;
-            progress(((done_before + samples) / all).min(1.0));
-            if kept.elapsed() > KEPT_EVERY && samples <= settings.samples as f64 {
+            let goes_on = progress(((done_before + samples) / all).min(1.0));
+            if (goes_on.is_err() || kept.elapsed() > KEPT_EVERY) && samples <= settings.samples as f64 {
                 checkpoint::save(part, key, rendering)?;
                 kept = Instant::now();
             }
-            Ok(())
+            goes_on
         })?;
     if rendering.tally.not_finite > 0 {
         let count = rendering.tally.not_finite;

@@ -3,7 +3,7 @@
 use super::against;
 use super::measure::{Measured, measure};
 use super::references::reference;
-use super::truth::TruthSettings;
+use super::truth::{Progress, TruthSettings};
 use crate::error::Error;
 use crate::frame::Request;
 use crate::io::cache::Cache;
@@ -18,7 +18,7 @@ pub const SAMPLES: u64 = 64;
 const FRAMES: u32 = 3;
 
 /// Mean FLIP over covered pixels of a picture against the traced reference of the scene, which is that before a budget
-/// changed it; `progress` is told the share traced.
+/// changed it.
 ///
 /// # Errors
 /// Those of the reference; pictures that cannot be compared.
@@ -26,7 +26,7 @@ pub fn error(
     cache: &Cache,
     asked_for: &Scene,
     drawn: &LinearImage,
-    progress: &mut dyn FnMut(f64),
+    progress: &mut Progress<'_>,
 ) -> Result<f64, Error> {
     let settings = TruthSettings { samples: SAMPLES, floors: Vec::new() };
     let truth = reference(cache, asked_for, [drawn.width, drawn.height], &settings, progress)?;

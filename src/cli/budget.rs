@@ -104,7 +104,7 @@ impl BudgetJob {
             let asked_for = job.asked_for.as_ref().unwrap_or(&job.scene);
             let [width, height] = picture.size;
             let drawn = LinearImage { width, height, pixels: picture.linear.clone() };
-            hold("FLIP", verify::error(&self.cache, asked_for, &drawn, &mut |_| ())?, most);
+            hold("FLIP", verify::error(&self.cache, asked_for, &drawn, &mut |_| Ok(()))?, most);
         }
         if broken.is_empty() {
             Ok(())

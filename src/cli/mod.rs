@@ -25,6 +25,8 @@ mod stress;
 mod view;
 #[cfg(feature = "viewer")]
 pub mod view_args;
+#[cfg(feature = "viewer")]
+mod view_references;
 
 use crate::error::Error;
 use crate::vulkan::{Device, DeviceOptions, Validation};

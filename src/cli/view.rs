@@ -4,15 +4,19 @@ use super::args::Common;
 use super::device_options;
 use super::job::{assignments, kept, parse_size};
 use super::view_args::View;
+use super::view_references::Traced;
 use crate::error::Error;
 use crate::frame::check_tables;
+use crate::io::cache::Cache;
 use crate::io::whole::check_target;
 use crate::scene::Scene;
 use crate::viewer::app::{Opening, run as open};
 use crate::viewer::desk::Look;
 use crate::viewer::document::Document;
 use crate::viewer::recent::Recent;
+use crate::viewer::references::References;
 use crate::viewer::scripts::Script;
+use std::sync::Arc;
 
 /// Opens a window and waits until it is closed.
 ///
@@ -39,6 +43,13 @@ pub fn run(args: &View, common: &Common) -> Result<(), Error> {
         device: device_options(common),
         kept: kept(args.no_cache, &args.cache),
         recent,
+        references: references(args),
         script: Script { screenshot: args.screenshot.clone(), exit_after: args.exit_after_frames },
     })
+}
+
+/// Who traces references; nobody for a user without a home, who named no folder to keep them in.
+fn references(args: &View) -> Option<Arc<dyn References>> {
+    let cache = Cache::new(args.cache.folder.as_deref()).ok()?;
+    Some(Arc::new(Traced { cache }))
 }

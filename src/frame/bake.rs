@@ -1,6 +1,7 @@
 //! What is worked out on the CPU for a fabric before it is uploaded: only what its features ask for.
 
 use super::keeping::Bakery;
+use super::textures::{DeviceTables, Uploaded};
 use crate::io::kept::Key;
 use crate::precompute::chord_shadow::{ChordShadow, bake_chord_shadow};
 use crate::precompute::core_texture::{CoreTexture, bake_core};
@@ -15,11 +16,12 @@ use crate::precompute::sky::{SkyYarns, bake_skies};
 use crate::scene::features::Features;
 use crate::scene::file::OcclusionMode;
 use crate::scene::{Fabric, Scene, SceneError};
-use crate::vulkan::VulkanError;
+use crate::vulkan::{Device, VulkanError};
 use crate::yarn::density::extinction_per_mm;
 use crate::yarn::table::Fiber;
 use half::f16;
 use std::cell::LazyCell;
+use std::sync::Arc;
 
 /// A fabric's tables; absent where nothing reads them.
 pub struct Bakes {
@@ -39,6 +41,7 @@ pub struct Bakes {
     pub shadow_radius_mm: f64,
     /// Extinction per outer radius of the yarn.
     pub extinction: f64,
+    uploaded: Uploaded,
 }
 
 impl Bakes {
@@ -93,7 +96,16 @@ impl Bakes {
             extinction: extinction_per_mm * yarn.outer_radius_mm(),
             core: features.core_fibers.then(|| bakery.table("core_texture", of_core, core)),
             scattering: features.physical.then(|| bakery.table("scattering_table", of_fiber, scattering)),
+            uploaded: Uploaded::default(),
         })
+    }
+
+    /// What is on the device of these; uploaded where nothing is yet.
+    ///
+    /// # Errors
+    /// Those of the device.
+    pub fn on_device(&self, device: &Arc<Device>) -> Result<DeviceTables, VulkanError> {
+        self.uploaded.get(device, self)
     }
 }
 

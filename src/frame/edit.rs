@@ -119,13 +119,12 @@ impl Renderer {
             camera: file.camera.clone(),
             light: file.light.clone(),
             display: file.display.clone(),
-            animation: AnimationTable {
-                frame: shown.animation.frame.and(file.animation.frame),
-                ..shown.animation.clone()
-            },
+            animation: AnimationTable { frame: file.animation.frame, ..shown.animation.clone() },
             ..shown.clone()
         };
-        if same_but_for_these != *file {
+        // To rest, and from it, nothing is posed.
+        let moved = |file: &SceneFile| file.animation.frame.is_some();
+        if same_but_for_these != *file || moved(shown) != moved(file) {
             return Ok(false);
         }
         let features = |file| features_by(file, &self.scene, &self.request);

@@ -15,7 +15,8 @@ use std::sync::Arc;
 /// What is open of the sky above the control points of every fabric.
 pub type Skies = Arc<Vec<Vec<[f16; 4]>>>;
 
-/// A scene's tables. Clones share them.
+/// A scene's tables, and what was uploaded of them: renderers of one device that draw with the same ones share it there,
+/// and it goes with the last of them and the last clone. Clones share them.
 #[derive(Clone)]
 pub struct Tables {
     pub(super) bakes: Arc<Vec<Bakes>>,

@@ -3,14 +3,14 @@
 use super::Request;
 use super::bake::Bakes;
 use super::packing::{self, Part};
-use super::textures;
+use super::textures::DeviceTables;
 use crate::gpu_types::{ControlPoint, Fiber, Frame, Yarn};
 use crate::math::frame::octahedral_from_normal;
 use crate::passes::fiber_sets::{FabricBuffers, SharedBuffers};
 use crate::precompute::chord_shadow::Plies;
 use crate::precompute::environment::{Environment, project_environment};
 use crate::precompute::occlusion_fit::OcclusionFit;
-use crate::precompute::scattering_table::{ScatteringTable, azimuthal_constants};
+use crate::precompute::scattering_table::azimuthal_constants;
 use crate::scene::camera::Camera;
 use crate::scene::file::QualityTable;
 use crate::scene::{Fabric, Scene};
@@ -252,20 +252,13 @@ pub fn fabric_buffers(
 }
 
 fn shared_buffers(device: &Arc<Device>, baked: &FabricBakes<'_>) -> Result<SharedBuffers, VulkanError> {
-    let FabricBakes { cross_section, bakes, .. } = *baked;
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
-    let scattering =
-        |table: &ScatteringTable| Buffer::upload(device, "scattering table", usage, &table.values);
-    let (self_shadow, occlusion) = (bakes.self_shadow.as_ref(), bakes.occlusion_texture.as_ref());
-    let chords = bakes.chord_shadow.as_ref();
+    let DeviceTables { core, scattering, self_shadow, occlusion } = baked.bakes.on_device(device)?;
     Ok(SharedBuffers {
-        fibers: Buffer::upload(device, "fibers", usage, &fibers(cross_section))?,
-        core: bakes.core.as_ref().map(|core| textures::core_images(device, core)).transpose()?,
-        scattering: bakes.scattering.as_ref().map(scattering).transpose()?,
-        self_shadow: self_shadow
-            .map(|table| textures::self_shadow_image(device, table))
-            .or_else(|| chords.map(|table| textures::chord_shadow_image(device, table)))
-            .transpose()?,
-        occlusion: occlusion.map(|table| textures::occlusion_image(device, table)).transpose()?,
+        fibers: Buffer::upload(device, "fibers", usage, &fibers(baked.cross_section))?,
+        core,
+        scattering,
+        self_shadow,
+        occlusion,
     })
 }

@@ -1,10 +1,12 @@
 //! The window's thread: from events to pictures, and to the end.
 
+use super::comparing::Comparing;
 use super::desk::{Desk, Look};
 use super::document::Document;
 use super::gui::Gui;
 use super::painter::Painter;
 use super::recent::Recent;
+use super::references::References;
 use super::scripts::{Script, screenshot};
 use crate::error::Error;
 use crate::io::kept::Kept;
@@ -34,6 +36,8 @@ pub struct Opening {
     pub kept: Kept,
     /// Files that were open before.
     pub recent: Recent,
+    /// Who makes what pictures are compared with.
+    pub references: Option<Arc<dyn References>>,
     /// What the window does by itself.
     pub script: Script,
 }
@@ -112,6 +116,7 @@ impl Open {
         let wake = move || drop(proxy.send_event(Woken));
         let painter = Painter::start(device.clone(), opening.kept, wake);
         let mut desk = Desk::new(opening.document, painter, opening.look, opening.recent);
+        desk.comparing = Comparing::new(opening.references, &device);
         if let Some(reference) = &opening.reference {
             desk.canvas.compare_with(reference, gui.context())?;
         }

@@ -1,10 +1,12 @@
 //! Where the picture is shown, beside or over another one, and what is dragged there.
 
 use super::painter::Shown;
+use super::references::{Found, Known, have_one_reference};
 use crate::error::Error;
 use crate::frame::Picture;
 use crate::io::picture::{DisplayImage, LinearImage, read_exr};
 use crate::metrics::error::compare;
+use crate::scene::SceneFile;
 use crate::scene::file::DisplayTable;
 use egui::emath::GuiRounding;
 use egui::{Color32, ColorImage, Rect, Sense, TextureHandle, TextureOptions, Vec2, pos2, vec2};
@@ -41,6 +43,15 @@ struct Other {
     light: Arc<LinearImage>,
     /// A traced reference, not a picture that was kept: pictures have its size.
     is_reference: bool,
+    /// The scene that it was traced of, where that is known.
+    of: Option<SceneFile>,
+}
+
+impl Other {
+    /// Whether errors of pictures of `file` against it say anything.
+    fn fits(&self, file: &SceneFile) -> bool {
+        self.of.as_ref().is_none_or(|of| have_one_reference(of, file))
+    }
 }
 
 /// One picture's error and time.
@@ -78,6 +89,8 @@ pub struct Canvas {
     judging: Option<Receiver<(Judged, ColorImage)>>,
     /// Errors against the other picture, the last one at the end.
     pub judged: Vec<Judged>,
+    /// What other ways to draw the scene are expected to do.
+    pub known: Vec<Known>,
     size_px: Option<[u32; 2]>,
     holds_edge: bool,
 }
@@ -89,9 +102,14 @@ impl Canvas {
         reference.map(|other| [other.light.width, other.light.height]).or(self.size_px)
     }
 
-    /// What the picture is compared with.
-    pub fn other(&self) -> Option<&str> {
-        self.other.as_ref().map(|other| other.label.as_str())
+    /// The size of the place for pictures.
+    pub fn place_size(&self) -> Option<[u32; 2]> {
+        self.size_px
+    }
+
+    /// What the picture is compared with, and whether a picture of `file` has anything to do with it.
+    pub fn other(&self, file: &SceneFile) -> Option<(&str, bool)> {
+        self.other.as_ref().map(|other| (other.label.as_str(), other.fits(file)))
     }
 
     /// Takes a picture to show.
@@ -113,7 +131,8 @@ impl Canvas {
             TextureOptions::LINEAR,
         );
         let light = Arc::new(light_of(&shown.picture));
-        self.set_other(Other { label: "the picture kept".into(), texture, light, is_reference: false });
+        let label = "the picture kept".into();
+        self.set_other(Other { label, texture, light, is_reference: false, of: None });
     }
 
     /// Compares with a picture of linear radiance.
@@ -121,11 +140,35 @@ impl Canvas {
     /// # Errors
     /// One that cannot be read, or shown.
     pub fn compare_with(&mut self, path: &Path, context: &egui::Context) -> Result<(), Error> {
-        let light = read_exr(path)?;
+        let label = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        self.set_reference(context, label, read_exr(path)?, None)
+    }
+
+    /// Compares with a reference that was traced of a scene.
+    ///
+    /// # Errors
+    /// One that cannot be shown.
+    pub fn compare_with_found(
+        &mut self,
+        context: &egui::Context,
+        found: Found,
+        of: SceneFile,
+    ) -> Result<(), Error> {
+        self.set_reference(context, "the reference".into(), found.light, Some(of))?;
+        self.known = found.known;
+        Ok(())
+    }
+
+    fn set_reference(
+        &mut self,
+        context: &egui::Context,
+        label: String,
+        light: LinearImage,
+        of: Option<SceneFile>,
+    ) -> Result<(), Error> {
         let image = shown_image(&light, &self.display)?;
         let texture = context.load_texture("reference", image, TextureOptions::LINEAR);
-        let label = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        self.set_other(Other { label, texture, light: Arc::new(light), is_reference: true });
+        self.set_other(Other { label, texture, light: Arc::new(light), is_reference: true, of });
         Ok(())
     }
 
@@ -134,6 +177,7 @@ impl Canvas {
         self.shows = Shows::Wipe(0.5);
         (self.heatmap, self.judging) = (None, None);
         self.judged.clear();
+        self.known.clear();
     }
 
     /// Compares with nothing any more.
@@ -141,13 +185,14 @@ impl Canvas {
         (self.other, self.heatmap, self.judging) = (None, None, None);
         self.shows = Shows::Picture;
         self.judged.clear();
+        self.known.clear();
     }
 
     /// Starts to work out how far the picture is from the other, on another thread, unless one is at it.
     fn judge(&mut self, context: &egui::Context, shown: &Shown) {
         let Some(other) = &self.other else { return };
         let same_size = [other.light.width, other.light.height] == shown.picture.size;
-        if self.judging.is_some() || !same_size || !shown.own_tables {
+        if self.judging.is_some() || !same_size || !shown.own_tables || !other.fits(&shown.file) {
             return;
         }
         let (tell, judging) = channel();

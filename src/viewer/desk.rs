@@ -1,6 +1,7 @@
 //! What is looked at, and how: the document, the picture of it, and what is compared with it.
 
 use super::canvas::Canvas;
+use super::comparing::Comparing;
 use super::document::Document;
 use super::live::Live;
 use super::painter::{News, Painter, Shown, Wanted};
@@ -45,6 +46,8 @@ pub struct Desk {
     pub(super) camera: Option<CameraTable>,
     pub(super) shown: Option<Box<Shown>>,
     pub(super) canvas: Canvas,
+    /// References of the scene.
+    pub(super) comparing: Comparing,
     pub(super) live: Live,
     panel: Panel,
     pub(super) playing: Playing,
@@ -73,6 +76,7 @@ impl Desk {
             camera: None,
             shown: None,
             canvas: Canvas::default(),
+            comparing: Comparing::default(),
             live: Live::default(),
             panel: Panel::default(),
             playing: Playing::new(),
@@ -143,6 +147,7 @@ impl Desk {
             }
         }
         self.canvas.hear(context);
+        self.hear_reference(context);
         self.ended.take().map_or(Ok(()), Err)
     }
 
@@ -176,7 +181,8 @@ impl Desk {
         if self.live.is_open {
             egui::Panel::right("live").exact_size(FIGURES_POINTS).show(ui, |ui| {
                 egui::ScrollArea::vertical().show(ui, |ui| {
-                    Live::show(ui, self.shown.as_deref(), &self.canvas.judged, &mut self.look.statistics);
+                    let compared = (&self.canvas.judged[..], &self.canvas.known[..]);
+                    Live::show(ui, self.shown.as_deref(), compared, &mut self.look.statistics);
                 });
             });
         }
@@ -311,6 +317,7 @@ impl Desk {
             self.asked.as_ref().is_none_or(|(asked, of_size, _)| *asked != file || *of_size != size);
         let was_moving = self.asked.as_ref().is_some_and(|(.., moving)| *moving);
         let moving = self.moves() || pointer_down && (changed || was_moving);
+        self.hold_tracing(moving);
         let look_changed = self.live.look_changed(&self.look);
         if !changed && moving == was_moving && !look_changed {
             return;

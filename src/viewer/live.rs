@@ -3,7 +3,9 @@
 use super::canvas::Judged;
 use super::desk::Look;
 use super::painter::Shown;
-use egui_plot::{Line, Plot, PlotPoints, Points};
+use super::references::Known;
+use crate::metrics::error_vs_time::{Outcome, front};
+use egui_plot::{Line, Plot, PlotPoints, Points, uniform_grid_spacer};
 
 /// The panel of figures.
 pub struct Live {
@@ -28,8 +30,14 @@ impl Live {
         changed
     }
 
-    /// Shows the figures, and errors against another picture, the last one at the end.
-    pub fn show(ui: &mut egui::Ui, shown: Option<&Shown>, judged: &[Judged], statistics: &mut bool) {
+    /// Shows the figures, errors against another picture, the last one at the end, and what is known of other ways to
+    /// draw the scene.
+    pub fn show(
+        ui: &mut egui::Ui,
+        shown: Option<&Shown>,
+        (judged, known): (&[Judged], &[Known]),
+        statistics: &mut bool,
+    ) {
         ui.heading("Picture");
         ui.checkbox(statistics, "count fibers").on_hover_text("Counting takes time of its own");
         let Some(shown) = shown else { return };
@@ -65,7 +73,7 @@ impl Live {
             ui.label(egui::RichText::new(note).weak());
         }
         if let Some(last) = judged.last() {
-            plot(ui, judged, last);
+            plot(ui, (judged, known), last);
         }
         ui.separator();
         ui.collapsing("Left out", |ui| {
@@ -87,18 +95,43 @@ impl Live {
     }
 }
 
-/// Error against time of the pictures that were compared, the last one marked.
-fn plot(ui: &mut egui::Ui, judged: &[Judged], last: &Judged) {
+/// Error against time of the pictures that were compared, the last one marked, among what is known of other settings.
+fn plot(ui: &mut egui::Ui, (judged, known): (&[Judged], &[Known]), last: &Judged) {
     ui.separator();
     ui.label("FLIP against milliseconds");
     row(ui, "FLIP", format!("{:.4} at {} samples", last.flip, last.samples));
-    let point = |judged: &Judged| [judged.ms, judged.flip];
-    let points: PlotPoints<'_> = judged.iter().map(point).collect();
-    let now = PlotPoints::from(vec![point(last)]);
-    Plot::new("error").height(140.0).allow_scroll(false).include_x(0.0).include_y(0.0).show(ui, |plot| {
-        plot.line(Line::new("before", points));
-        plot.points(Points::new("now", now).radius(5.0));
-    });
+    if known.is_empty() {
+        ui.label(egui::RichText::new("no other settings: none were measured of this look").weak());
+    }
+    let outcomes: Vec<Outcome> =
+        known.iter().map(|known| Outcome { error: known.flip, time: known.ms }).collect();
+    // Times of settings lie decades apart.
+    let place = |ms: f64, flip: f64| [ms.max(1e-3).log10(), flip];
+    let of_judged = |judged: &Judged| place(judged.ms, judged.flip);
+    let before: PlotPoints<'_> = judged.iter().map(of_judged).collect();
+    let now = PlotPoints::from(vec![of_judged(last)]);
+    let decades = |mark: egui_plot::GridMark, _: &_| match mark.value {
+        value if value.fract() == 0.0 => format!("{:.0}", 10.0_f64.powf(value)),
+        _ => String::new(),
+    };
+    Plot::new("error")
+        .height(160.0)
+        .allow_scroll(false)
+        .include_y(0.0)
+        .x_grid_spacer(uniform_grid_spacer(|_| [1.0, 0.5, 0.1]))
+        .x_axis_formatter(decades)
+        .show(ui, |plot| {
+            let best = front(&outcomes).into_iter().map(|i| place(outcomes[i].time, outcomes[i].error));
+            let best: PlotPoints<'_> = best.collect();
+            plot.line(Line::new("best of those measured", best).color(egui::Color32::GRAY));
+            for other in known {
+                let point = PlotPoints::from(vec![place(other.ms, other.flip)]);
+                let shown = Points::new(&other.name, point).radius(3.0).filled(false);
+                plot.points(shown.color(egui::Color32::GRAY));
+            }
+            plot.points(Points::new("before", before).radius(2.0).color(egui::Color32::LIGHT_BLUE));
+            plot.points(Points::new("now", now).radius(5.0).color(egui::Color32::YELLOW));
+        });
 }
 
 fn row(ui: &mut egui::Ui, what: &str, value: String) {

@@ -9,6 +9,7 @@
 pub mod app;
 mod canvas;
 pub mod changes;
+mod comparing;
 pub mod desk;
 pub mod document;
 mod draft;
@@ -25,6 +26,7 @@ pub mod painter;
 pub mod panel;
 mod playing;
 pub mod recent;
+pub mod references;
 mod save;
 pub mod scripts;
 pub mod showing;

@@ -20,8 +20,9 @@ use std::time::Duration;
 
 /// A scene on the device.
 pub struct Showing {
-    /// Draws it.
-    pub renderer: Renderer,
+    renderer: Renderer,
+    /// What it is to draw from its next picture on: drafts of a value that is dragged need only what drafts need.
+    next: Option<(Scene, Tables)>,
     /// The scene whose own tables are still to be baked: those that it is drawn with are of another one.
     pub stale: Option<Scene>,
     motion: Option<Moving>,
@@ -68,9 +69,30 @@ impl Showing {
         let stale = (!own).then(|| scene.clone());
         let renderer = Renderer::with_tables(device, scene, request, tables, kept)?;
         let motion = Moving::start(&renderer, movers)?;
-        let mut showing = Self { renderer, stale, motion, drafts: [None, None] };
-        showing.pose(showing.renderer.scene().file.animation.frame)?;
+        let mut showing = Self { renderer, next: None, stale, motion, drafts: [None, None] };
+        showing.pose(showing.scene().file.animation.frame)?;
         Ok(showing)
+    }
+
+    /// The scene that is shown.
+    fn scene(&self) -> &Scene {
+        self.next.as_ref().map_or_else(|| self.renderer.scene(), |(scene, _)| scene)
+    }
+
+    /// The tables that it is drawn with.
+    fn tables(&self) -> &Tables {
+        self.next.as_ref().map_or_else(|| self.renderer.tables(), |(_, tables)| tables)
+    }
+
+    /// What draws it as it is.
+    ///
+    /// # Errors
+    /// Those of the device: then the scene before is shown.
+    pub fn renderer(&mut self) -> Result<&mut Renderer, Error> {
+        if let Some((scene, tables)) = self.next.take() {
+            self.renderer.edit(scene, tables)?;
+        }
+        Ok(&mut self.renderer)
     }
 
     /// Shows what `file` says, as far as what is on the device can.
@@ -85,19 +107,21 @@ impl Showing {
         models: &mut Models,
     ) -> Result<Followed, Error> {
         let mut file = file.clone();
-        file.camera = self.fitted(&file.camera, request.size)?;
-        if file == self.renderer.scene().file {
+        if file.animation.frame.is_some() {
+            file.camera = self.fitted(&file.camera, request.size)?;
+        }
+        if file == self.scene().file {
             return Ok(Followed::Already);
         }
-        if self.renderer.edit_in_place(&file)? {
+        if self.next.is_none() && self.renderer.edit_in_place(&file)? {
             self.pose(file.animation.frame)?;
             return Ok(Followed::Shown { remade: false });
         }
         let scene = Scene::of_file(file, folder, name, models)?;
-        if !self.renderer.tables().may_stand_for(&scene, &request) {
+        if !self.tables().may_stand_for(&scene, &request) {
             return Ok(Followed::Awaited(Box::new(scene)));
         }
-        let tables = self.renderer.tables().clone();
+        let tables = self.tables().clone();
         self.show(scene, tables, false)?;
         Ok(Followed::Shown { remade: true })
     }
@@ -109,7 +133,7 @@ impl Showing {
     pub fn settle(&mut self, tables: Tables) -> Result<(), Error> {
         let Some(mut scene) = self.stale.take() else { return Ok(()) };
         // What was edited in place since.
-        scene.file = self.renderer.scene().file.clone();
+        scene.file = self.scene().file.clone();
         self.put(scene, tables)
     }
 
@@ -135,7 +159,7 @@ impl Showing {
         (revision, settled): (u64, bool),
         delay: Duration,
     ) -> Shown {
-        let (renderer, scene) = (&self.renderer, self.renderer.scene());
+        let (renderer, scene) = (&self.renderer, self.scene());
         let drawn = draft.and_then(|detail| self.drafts[detail as usize].as_ref()).unwrap_or(renderer);
         let mut stats = drawn.stats().clone();
         stats.set_gpu_bytes(renderer.device());
@@ -156,7 +180,12 @@ impl Showing {
     fn put(&mut self, scene: Scene, tables: Tables) -> Result<(), Error> {
         let movers = Movers::open(&scene)?;
         self.drafts = [None, None];
-        self.renderer.edit(scene, tables)?;
+        self.next = Some((scene, tables));
+        if movers.0.is_empty() {
+            self.motion = None;
+            return Ok(());
+        }
+        self.renderer()?;
         self.motion = Moving::start(&self.renderer, movers)?;
         self.pose(self.renderer.scene().file.animation.frame)
     }
@@ -171,21 +200,23 @@ impl Showing {
     /// # Errors
     /// Those of the device.
     pub fn draft(&mut self, detail: Detail, request: Request) -> Result<&mut Renderer, Error> {
-        let file = drafted(&self.renderer.scene().file, detail);
-        let place = &mut self.drafts[detail as usize];
-        let stays = match place {
-            Some(draft) => draft.scene().file == file || draft.edit_in_place(&file)?,
-            None => false,
+        let file = drafted(&self.scene().file, detail);
+        let kept = match self.drafts[detail as usize].take() {
+            Some(mut draft) => {
+                let stays = draft.scene().file == file || draft.edit_in_place(&file)?;
+                stays.then_some(draft)
+            }
+            None => None,
         };
-        let mut draft = match place.take().filter(|_| stays) {
+        let mut draft = match kept {
             Some(draft) => draft,
             None => {
-                let scene = Scene { file, ..self.renderer.scene().clone() };
-                self.renderer.beside(scene, request, self.renderer.tables().clone())?
+                let scene = Scene { file, ..self.scene().clone() };
+                self.renderer.beside(scene, request, self.tables().clone())?
             }
         };
         draft.set_request(request)?;
-        Ok(place.insert(draft))
+        Ok(self.drafts[detail as usize].insert(draft))
     }
 
     /// Draws with other shaders from now on.
@@ -193,10 +224,11 @@ impl Showing {
     /// # Errors
     /// Those of the device, which may find fault with the shaders.
     pub fn set_shaders(&mut self, shaders: ShaderSet) -> Result<(), Error> {
-        if !self.renderer.has_shaders(&shaders) {
-            self.drafts = [None, None];
+        if self.renderer.has_shaders(&shaders) {
+            return Ok(());
         }
-        Ok(self.renderer.set_shaders(shaders)?)
+        self.drafts = [None, None];
+        Ok(self.renderer()?.set_shaders(shaders)?)
     }
 
     /// Frames that its motions have; none where nothing moves.

@@ -121,7 +121,11 @@ fn comparing(ui: &mut egui::Ui, desk: &mut Desk) {
     {
         desk.canvas.keep(ui.ctx(), shown);
     }
-    let Some(other) = desk.canvas.other().map(str::to_owned) else { return };
+    desk.reference_menu(ui);
+    let file = desk.file();
+    let Some((other, fits)) = desk.canvas.other(&file).map(|(name, fits)| (name.to_owned(), fits)) else {
+        return;
+    };
     let shows = desk.canvas.shows;
     let mut choose = |ui: &mut egui::Ui, to: Shows, name: &str| {
         let chosen = std::mem::discriminant(&shows) == std::mem::discriminant(&to);
@@ -132,7 +136,8 @@ fn comparing(ui: &mut egui::Ui, desk: &mut Desk) {
     choose(ui, Shows::Picture, "B");
     choose(ui, Shows::Wipe(0.5), "A | B");
     choose(ui, Shows::Heatmap, "Heatmap");
-    ui.label(format!("A: {other}"));
+    let stale = if fits { "" } else { ", of the scene before it changed" };
+    ui.label(format!("A: {other}{stale}"));
     if ui.small_button("x").on_hover_text("Compare no more").clicked() {
         desk.canvas.forget_other();
     }

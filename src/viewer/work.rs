@@ -120,7 +120,7 @@ impl Work {
                     Message::Stop => return Ok(()),
                 }
             }
-            self.draw()?;
+            self.trouble_is_told(Self::draw)?;
             self.bake();
         }
         Ok(())
@@ -326,8 +326,9 @@ impl Work {
         let renderer = match draft {
             Some(detail) => showing.draft(detail, asked)?,
             None => {
-                showing.renderer.set_request(asked)?;
-                &mut showing.renderer
+                let renderer = showing.renderer()?;
+                renderer.set_request(asked)?;
+                renderer
             }
         };
         renderer.forget_pictures();

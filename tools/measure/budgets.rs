@@ -199,7 +199,7 @@ fn draw(
     let settled = Scene::load(path, &joined(sets, &setting.sets))?;
     let measured = verify::times(stage.device(), settled, request(size, setting.samples, false)?)?;
     Ok(Done {
-        flip: verify::error(cache, asked_for, &measured.linear, &mut |_| ())?,
+        flip: verify::error(cache, asked_for, &measured.linear, &mut |_| Ok(()))?,
         wall_ms: measured.wall_ms.median,
         processor_ms: measured.cpu_ms.median,
         setting: setting.clone(),
