@@ -89,8 +89,8 @@ pub struct Canvas {
     judging: Option<Receiver<(Judged, ColorImage)>>,
     /// Errors against the other picture, the last one at the end.
     pub judged: Vec<Judged>,
-    /// What other ways to draw the scene are expected to do.
-    pub known: Vec<Known>,
+    /// What other ways to draw the scene are expected to do, where it is compared with a reference that was traced here.
+    pub known: Option<Vec<Known>>,
     size_px: Option<[u32; 2]>,
     holds_edge: bool,
 }
@@ -155,7 +155,7 @@ impl Canvas {
         of: SceneFile,
     ) -> Result<(), Error> {
         self.set_reference(context, "the reference".into(), found.light, Some(of))?;
-        self.known = found.known;
+        self.known = Some(found.known);
         Ok(())
     }
 
@@ -177,7 +177,7 @@ impl Canvas {
         self.shows = Shows::Wipe(0.5);
         (self.heatmap, self.judging) = (None, None);
         self.judged.clear();
-        self.known.clear();
+        self.known = None;
     }
 
     /// Compares with nothing any more.
@@ -185,7 +185,7 @@ impl Canvas {
         (self.other, self.heatmap, self.judging) = (None, None, None);
         self.shows = Shows::Picture;
         self.judged.clear();
-        self.known.clear();
+        self.known = None;
     }
 
     /// Starts to work out how far the picture is from the other, on another thread, unless one is at it.
@@ -296,7 +296,9 @@ impl Canvas {
             let edge = frame.left() + *share * frame.width();
             let at = response.interact_pointer_pos();
             if response.drag_started_by(Button::Primary) {
-                self.holds_edge = at.is_some_and(|at| (at.x - edge).abs() < EDGE_POINTS);
+                // Where it was pressed: a drag is one only some way from there.
+                let pressed = ui.input(|input| input.pointer.press_origin());
+                self.holds_edge = pressed.is_some_and(|at| (at.x - edge).abs() < EDGE_POINTS);
             }
             if let Some(at) = at.filter(|_| self.holds_edge && response.dragged_by(Button::Primary)) {
                 *share = ((at.x - frame.left()) / frame.width()).clamp(0.0, 1.0);

@@ -166,6 +166,18 @@ impl Desk {
         }
     }
 
+    /// Stops at the last frame of what does not repeat: only what stands still is drawn whole.
+    fn end_playing(&mut self) {
+        let animation = &self.document.scene_file().animation;
+        let Some(count) = self.shown.as_ref().and_then(|shown| shown.frame_count) else { return };
+        let frame = self.playing.frame(animation, count, Instant::now());
+        if !animation.repeat && frame.is_some_and(|frame| frame >= last(count)) {
+            self.playing.pause();
+            self.scrub(last(count));
+            self.document.end_gesture();
+        }
+    }
+
     /// The whole window. Returns after which time it wants to be shown again though nothing happens.
     pub fn show(&mut self, ui: &mut egui::Ui) -> Option<Duration> {
         let before = self.document.scene_file().camera.clone();
@@ -181,7 +193,7 @@ impl Desk {
         if self.live.is_open {
             egui::Panel::right("live").exact_size(FIGURES_POINTS).show(ui, |ui| {
                 egui::ScrollArea::vertical().show(ui, |ui| {
-                    let compared = (&self.canvas.judged[..], &self.canvas.known[..]);
+                    let compared = (&self.canvas.judged[..], self.canvas.known.as_deref());
                     Live::show(ui, self.shown.as_deref(), compared, &mut self.look.statistics);
                 });
             });
@@ -191,6 +203,7 @@ impl Desk {
             // What was typed counts, not what was dragged before.
             self.camera = None;
         }
+        self.end_playing();
         self.want(ui.input(|input| input.pointer.any_down()));
         self.moves().then_some(TICK)
     }

@@ -35,7 +35,7 @@ impl Live {
     pub fn show(
         ui: &mut egui::Ui,
         shown: Option<&Shown>,
-        (judged, known): (&[Judged], &[Known]),
+        (judged, known): (&[Judged], Option<&[Known]>),
         statistics: &mut bool,
     ) {
         ui.heading("Picture");
@@ -96,13 +96,14 @@ impl Live {
 }
 
 /// Error against time of the pictures that were compared, the last one marked, among what is known of other settings.
-fn plot(ui: &mut egui::Ui, (judged, known): (&[Judged], &[Known]), last: &Judged) {
+fn plot(ui: &mut egui::Ui, (judged, known): (&[Judged], Option<&[Known]>), last: &Judged) {
     ui.separator();
     ui.label("FLIP against milliseconds");
     row(ui, "FLIP", format!("{:.4} at {} samples", last.flip, last.samples));
-    if known.is_empty() {
+    if known.is_some_and(<[_]>::is_empty) {
         ui.label(egui::RichText::new("no other settings: none were measured of this look").weak());
     }
+    let known = known.unwrap_or_default();
     let outcomes: Vec<Outcome> =
         known.iter().map(|known| Outcome { error: known.flip, time: known.ms }).collect();
     // Times of settings lie decades apart.

@@ -122,7 +122,11 @@ impl Showing {
             return Ok(Followed::Awaited(Box::new(scene)));
         }
         let tables = self.tables().clone();
-        self.show(scene, tables, false)?;
+        // Tables are of rest, and of no camera.
+        let SceneFile { animation, camera, .. } = scene.file.clone();
+        let own = self.stale.is_none()
+            && SceneFile { animation, camera, ..self.scene().file.clone() } == scene.file;
+        self.show(scene, tables, own)?;
         Ok(Followed::Shown { remade: true })
     }
 

@@ -4,6 +4,8 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "the helpers of a test may fail it")]
 #![cfg(feature = "viewer")]
 
+mod desktop;
+mod moving;
 mod session;
 
 use session::{Session, Shot};

@@ -1,7 +1,8 @@
 //! An X server, the program in it, and a hand on its keyboard and pointer.
 
+use crate::desktop::{ask_to_close, drop_file};
 use std::io::{BufRead, BufReader, Read};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
@@ -35,7 +36,7 @@ pub struct Session {
     window: String,
     log: Receiver<String>,
     heard: Vec<String>,
-    /// The scene that is edited: a copy of the demo.
+    /// What is edited.
     pub scene: PathBuf,
     _home: tempfile::TempDir,
 }
@@ -51,8 +52,23 @@ impl Drop for Session {
 }
 
 impl Session {
-    /// Opens the demo in a window of this size.
+    /// Opens a copy of the demo in a window of this size.
     pub fn open(size: [u32; 2], options: &[&str]) -> Self {
+        Self::open_what(size, options, &[], |home| {
+            for file in ["demo.toml", "stockinette.bcc"] {
+                std::fs::copy(format!("models/{file}"), home.join(file)).unwrap();
+            }
+            home.join("demo.toml")
+        })
+    }
+
+    /// Opens what `make` puts into a folder, in an environment with these variables besides.
+    pub fn open_what(
+        size: [u32; 2],
+        options: &[&str],
+        variables: &[(&str, &str)],
+        make: impl FnOnce(&Path) -> PathBuf,
+    ) -> Self {
         let mut server = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0", SCREEN, "-nolisten", "tcp"])
             .stdout(Stdio::piped())
@@ -63,10 +79,7 @@ impl Session {
         BufReader::new(server.stdout.as_mut().unwrap()).read_line(&mut number).unwrap();
         let display = format!(":{}", number.trim());
         let home = tempfile::tempdir().unwrap();
-        let scene = home.path().join("demo.toml");
-        for file in ["demo.toml", "stockinette.bcc"] {
-            std::fs::copy(format!("models/{file}"), home.path().join(file)).unwrap();
-        }
+        let scene = make(home.path());
         let mut program = Command::new(env!("CARGO_BIN_EXE_worsted"))
             .arg("view")
             .arg(&scene)
@@ -78,6 +91,7 @@ impl Session {
             .env("DISPLAY", &display)
             .env("XDG_CONFIG_HOME", home.path())
             .env_remove("WAYLAND_DISPLAY")
+            .envs(variables.iter().copied())
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
@@ -148,6 +162,29 @@ impl Session {
         }
     }
 
+    /// Waits until the log says this.
+    pub fn until_said(&mut self, words: &str) {
+        let started = Instant::now();
+        while !self.heard.last().is_some_and(|line| line.contains(words)) {
+            match self.log.recv_timeout(PATIENCE.saturating_sub(started.elapsed())) {
+                Ok(line) => self.heard.push(line),
+                Err(_) => panic!("nobody says {words:?}; the log: {:#?}", self.heard),
+            }
+        }
+    }
+
+    /// What is drawn in the next three seconds.
+    pub fn for_a_while(&mut self) -> Drawn {
+        let (mut drawn, until) = (Drawn::default(), Instant::now() + Duration::from_secs(3));
+        while let Ok(line) = self.log.recv_timeout(until.saturating_duration_since(Instant::now())) {
+            if let Some(of) = line.split_once("picture ").map(|(_, of)| of) {
+                drawn.note(of);
+            }
+            self.heard.push(line);
+        }
+        drawn
+    }
+
     /// Waits until what was said to the user is gone.
     pub fn wait_for_words(&self) {
         std::thread::sleep(Duration::from_secs(9));
@@ -198,6 +235,26 @@ impl Session {
 
     pub fn resize(&self, [width, height]: [u32; 2]) {
         self.tool("xdotool", &["windowsize", &self.window, &width.to_string(), &height.to_string()]);
+    }
+
+    /// Takes the window off the screen, as an icon is made of it, and puts it back.
+    pub fn hide_and_show(&self) {
+        self.tool("xdotool", &["windowunmap", "--sync", &self.window]);
+        self.pause();
+        self.tool("xdotool", &["windowmap", "--sync", &self.window]);
+        self.pause();
+    }
+
+    /// Drops a file on the window.
+    pub fn drop_file(&self, path: &Path) {
+        let window = self.window.parse().unwrap();
+        drop_file(&self.display, window, path).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
+    }
+
+    /// Closes the window as the system's button does, and holds the program to a good end.
+    pub fn close_by_button(mut self) {
+        ask_to_close(&self.display, self.window.parse().unwrap()).unwrap();
+        self.ends();
     }
 
     fn focus(&self) {
