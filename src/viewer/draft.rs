@@ -14,13 +14,42 @@ const CORE_PIECES: u32 = 4;
 /// Few vertices come of each patch, so that many fit into a draw.
 const PATCHES: u32 = 256;
 
+/// How keys of a yarn begin that say how fibers leave their ply.
+const FLYAWAY_KEYS: [&str; 2] = ["hair_", "loop_"];
+
 /// How much a draft shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detail {
-    /// Fibers, for edits that change them.
+    /// Fibers.
     Fibers,
-    /// Plies as a whole, for a look from elsewhere or in other light.
+    /// Plies as a whole, in half of the time.
     Cores,
+}
+
+/// What an edit changes of what is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Edit {
+    /// From where it is looked at, in what light: all that changes in place.
+    View,
+    /// Fibers that leave their ply, and nothing else: plies as a whole do not show it.
+    Flyaways,
+    /// More than that.
+    Cloth,
+}
+
+impl Edit {
+    /// From one scene to one that is made anew.
+    pub fn between(before: &SceneFile, after: &SceneFile) -> Self {
+        let without = |file: &SceneFile| {
+            let mut file = file.clone();
+            let tables = file.fabric.iter_mut().map(|fabric| &mut fabric.yarn);
+            for yarn in tables.chain([&mut file.yarn]) {
+                yarn.retain(|key, _| !FLYAWAY_KEYS.iter().any(|part| key.starts_with(part)));
+            }
+            file
+        };
+        if without(before) == without(after) { Self::Flyaways } else { Self::Cloth }
+    }
 }
 
 /// The scene as a draft draws it.
@@ -42,6 +71,24 @@ pub fn drafted(file: &SceneFile, detail: Detail) -> SceneFile {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::overrides::apply;
+
+    #[test]
+    fn edits_are_told_apart_by_whether_plies_show_them() {
+        let with = |set: &str| -> SceneFile {
+            let text = "[[fabric]]\nmodel = 'a'\n[fabric.yarn]\npreset = 'mohair'\n";
+            let mut table = toml::from_str(text).unwrap();
+            apply(&mut table, set).unwrap();
+            table.try_into().unwrap()
+        };
+        let between = |set: &str| Edit::between(&with("seed=0"), &with(set));
+        for set in ["yarn.hair_density_per_mm=3", "fabric.0.yarn.loop_radius_mm=[1, 0.1]"] {
+            assert_eq!(between(set), Edit::Flyaways, "{set}");
+        }
+        for set in ["yarn.ply_pitch_mm=3", "fabric.0.yarn.ply_count=2", "fiber.preset=silk", "seed=3"] {
+            assert_eq!(between(set), Edit::Cloth, "{set}");
+        }
+    }
 
     #[test]
     fn a_draft_is_never_finer_than_the_scene() {

@@ -30,5 +30,6 @@ pub mod references;
 mod save;
 pub mod scripts;
 pub mod showing;
+mod stages;
 mod toolbar;
 mod work;

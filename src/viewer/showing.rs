@@ -1,6 +1,6 @@
 //! What the painter has on the device: the scene that is shown, and how it follows what is wanted.
 
-use super::draft::{Detail, drafted};
+use super::draft::{Detail, Edit, drafted};
 use super::painter::Shown;
 use crate::error::Error;
 use crate::frame::moving::Poser;
@@ -43,10 +43,10 @@ struct Moving {
 pub enum Followed {
     /// It is shown already.
     Already,
-    /// It is shown from now on: on a scene that was made anew, or edited in place.
+    /// It is shown from now on: of a scene that was edited in place (its view alone), or made anew.
     Shown {
-        /// Made anew.
-        remade: bool,
+        /// What that changes of what is seen.
+        edit: Edit,
     },
     /// Nothing on the device can stand for this scene before its tables are baked.
     Awaited(Box<Scene>),
@@ -115,7 +115,7 @@ impl Showing {
         }
         if self.next.is_none() && self.renderer.edit_in_place(&file)? {
             self.pose(file.animation.frame)?;
-            return Ok(Followed::Shown { remade: false });
+            return Ok(Followed::Shown { edit: Edit::View });
         }
         let scene = Scene::of_file(file, folder, name, models)?;
         if !self.tables().may_stand_for(&scene, &request) {
@@ -126,8 +126,9 @@ impl Showing {
         let SceneFile { animation, camera, .. } = scene.file.clone();
         let own = self.stale.is_none()
             && SceneFile { animation, camera, ..self.scene().file.clone() } == scene.file;
+        let edit = Edit::between(&self.scene().file, &scene.file);
         self.show(scene, tables, own)?;
-        Ok(Followed::Shown { remade: true })
+        Ok(Followed::Shown { edit })
     }
 
     /// Draws with the scene's own tables, which were baked meanwhile.

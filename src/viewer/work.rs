@@ -1,12 +1,10 @@
 //! The painter's thread: what it has, and what it does next.
 
-use super::draft::Detail;
-use super::pace::{Pace, TARGET_MS};
-use super::painter::{News, Order, Wanted};
+use super::draft::Edit;
+use super::painter::{News, Order};
 use super::showing::{Followed, Showing};
+use super::stages::{Paces, Situation, Stage, whole_request};
 use crate::error::Error;
-use crate::frame::Request;
-use crate::frame::sampling::Sampling;
 use crate::frame::tables::Tables;
 use crate::io::kept::Kept;
 use crate::scene::Scene;
@@ -17,12 +15,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvError, Sender, TryRecvError};
 use std::thread::JoinHandle;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-/// Samples of the pictures that follow one another while nothing changes.
-const REFINEMENTS: [u32; 3] = [4, 16, 64];
-/// Time in which somebody who waits for a whole picture sees one that is nearly so.
-const SOON_MS: f64 = 900.0;
 /// Fiber curves handed to the device at once: between them a picture that nobody wants any more is given up.
 const MOST_CURVES: u64 = 20_000;
 
@@ -30,22 +24,10 @@ const MOST_CURVES: u64 = 20_000;
 pub(super) enum Message {
     /// What is wanted.
     Wanted(Order),
-    /// Tables of the scene of this number.
-    Baked(u64, Result<Tables, VulkanError>),
+    /// Tables of the scene of this number, and how long they took.
+    Baked(u64, Result<Tables, VulkanError>, Duration),
     /// No more.
     Stop,
-}
-
-/// What is drawn next.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stage {
-    Nothing,
-    /// Coarser than the scene.
-    Draft(Detail),
-    /// The scene itself, small.
-    Small,
-    /// And whole, by its place among the refinements.
-    Whole(usize),
 }
 
 /// The thread's own.
@@ -63,12 +45,16 @@ pub(super) struct Work {
     showing: Option<Showing>,
     /// A scene that is not shown before its tables are there.
     awaited: Option<Box<Scene>>,
-    /// Whether what changed last was more than how it is looked at.
-    remade: bool,
+    /// The wish that a picture answered last, and by which.
+    drawn: (u64, Stage),
+    /// What changed last.
+    edit: Edit,
     /// Scenes that were made so far: tables are of one of them.
     made: u64,
     /// Who bakes the tables of one of them.
     baking: Option<JoinHandle<()>>,
+    /// How long the last ones took.
+    bakes_take: Duration,
     next: Stage,
 }
 
@@ -89,12 +75,14 @@ impl Work {
             newest,
             models: Models::default(),
             paces: Paces::default(),
-            remade: true,
+            drawn: (0, Stage::Nothing),
+            edit: Edit::Cloth,
             wanted: None,
             showing: None,
             awaited: None,
             made: 0,
             baking: None,
+            bakes_take: Duration::ZERO,
             next: Stage::Nothing,
         }
     }
@@ -113,7 +101,8 @@ impl Work {
                         self.wanted = Some(order);
                         self.trouble_is_told(Self::follow)?;
                     }
-                    Message::Baked(made, tables) => {
+                    Message::Baked(made, tables, taken) => {
+                        self.bakes_take = taken;
                         self.baking.take().map(JoinHandle::join);
                         self.trouble_is_told(move |work| work.take_tables(made, tables))?;
                     }
@@ -169,7 +158,7 @@ impl Work {
         quality.curves_per_submission = quality.curves_per_submission.min(MOST_CURVES);
         // Nothing in a window shows them.
         wanted.file.layers = LayersTable::default();
-        let request = request(wanted, wanted.size, REFINEMENTS[0]);
+        let request = whole_request(wanted);
         let place = (wanted.folder.as_path(), wanted.name.as_str());
         if let Some(awaited) =
             self.awaited.as_mut().filter(|awaited| differ_in_view(&awaited.file, &wanted.file))
@@ -197,9 +186,9 @@ impl Work {
                 self.next = Stage::Nothing;
                 return Ok(());
             }
-            Followed::Shown { remade } => {
-                self.made += u64::from(remade);
-                self.remade = remade;
+            Followed::Shown { edit } => {
+                self.made += u64::from(edit != Edit::View);
+                self.edit = edit;
             }
             Followed::Already => (),
         }
@@ -211,7 +200,7 @@ impl Work {
     fn take_tables(&mut self, made: u64, tables: Result<Tables, VulkanError>) -> Result<(), Error> {
         let tables = tables?;
         let Some(Order { wanted, .. }) = &self.wanted else { return Ok(()) };
-        let request = request(wanted, wanted.size, REFINEMENTS[0]);
+        let request = whole_request(wanted);
         let own = made == self.made;
         match (self.awaited.take(), &mut self.showing) {
             (Some(scene), showing) if own || tables.may_stand_for(&scene, &request) => match showing {
@@ -231,8 +220,10 @@ impl Work {
                 return Ok(());
             }
         }
-        self.remade = true;
-        self.next = self.first();
+        self.edit = Edit::Cloth;
+        let (revision, last) = self.drawn;
+        let last = if revision == self.revision() { last } else { Stage::Nothing };
+        self.next = self.situation().map_or(Stage::Nothing, |now| self.paces.with_own_tables(last, &now));
         Ok(())
     }
 
@@ -248,11 +239,13 @@ impl Work {
             // What is dragged needs the processor, and tables of what it passes through nobody sees.
             return;
         }
-        let (request, kept) = (request(wanted, wanted.size, REFINEMENTS[0]), self.kept.clone());
+        let (request, kept) = (whole_request(wanted), self.kept.clone());
         let (made, inbox) = (self.made, self.inbox.clone());
         let bake = move || {
             // Where nobody wants them any more they are kept for the next time.
-            drop(inbox.send(Message::Baked(made, Tables::bake(&scene, &request, &kept))));
+            let started = Instant::now();
+            let tables = Tables::bake(&scene, &request, &kept);
+            drop(inbox.send(Message::Baked(made, tables, started.elapsed())));
         };
         self.baking = Some(std::thread::spawn(bake));
     }
@@ -261,40 +254,23 @@ impl Work {
         self.wanted.as_ref().map_or(0, |order| order.revision)
     }
 
-    /// What is drawn first of what is shown anew.
-    fn first(&self) -> Stage {
-        let Some((Order { wanted, .. }, showing)) = self.wanted.as_ref().zip(self.showing.as_ref()) else {
-            return Stage::Nothing;
-        };
-        if self.device.is_cpu() && showing.has_drafts() {
-            let cores = !self.remade && !self.paces.fibers.whole_is_fast();
-            return Stage::Draft(if cores { Detail::Cores } else { Detail::Fibers });
-        }
-        match self.paces.scene.whole_is_fast() && !wanted.moving {
-            true => Stage::Whole(0),
-            false => Stage::Small,
-        }
+    /// What decides what is drawn next; nothing is where nothing is shown.
+    fn situation(&self) -> Option<Situation> {
+        let (Order { wanted, .. }, showing) = self.wanted.as_ref().zip(self.showing.as_ref())?;
+        Some(Situation {
+            has_drafts: self.device.is_cpu() && showing.has_drafts(),
+            edit: self.edit,
+            moving: wanted.moving,
+            stale: showing.stale.is_some(),
+            bakes_take: self.bakes_take,
+            size: wanted.size,
+            most_samples: wanted.most_samples,
+        })
     }
 
-    /// What follows a picture, if nothing else is wanted meanwhile.
-    fn after(&self, stage: Stage) -> Stage {
-        let Some((Order { wanted, .. }, showing)) = self.wanted.as_ref().zip(self.showing.as_ref()) else {
-            return Stage::Nothing;
-        };
-        let step = match stage {
-            Stage::Nothing => return Stage::Nothing,
-            Stage::Draft(_) | Stage::Small if wanted.moving => return Stage::Nothing,
-            Stage::Draft(Detail::Cores) => return Stage::Draft(Detail::Fibers),
-            Stage::Draft(Detail::Fibers) if self.paces.scene.is_slow(wanted.size, SOON_MS) => {
-                return Stage::Small;
-            }
-            Stage::Draft(Detail::Fibers) | Stage::Small => 0,
-            Stage::Whole(step) => step + 1,
-        };
-        // With tables of another scene nothing is worth refining.
-        let allowed =
-            |&&samples: &&u32| step == 0 || showing.stale.is_none() && samples <= wanted.most_samples;
-        REFINEMENTS.get(step).filter(allowed).map_or(Stage::Nothing, |_| Stage::Whole(step))
+    /// What is drawn first of what is shown anew.
+    fn first(&self) -> Stage {
+        self.situation().map_or(Stage::Nothing, |now| self.paces.first(&now))
     }
 
     /// Draws what is next.
@@ -304,23 +280,12 @@ impl Work {
         else {
             return Ok(());
         };
+        if stage == Stage::Nothing {
+            return Ok(());
+        }
         let newest = &self.newest;
         let goes_on = |_| !matches!(stage, Stage::Whole(_)) || newest.load(Ordering::Relaxed) == *revision;
-        let (pace, asked) = match stage {
-            Stage::Nothing => return Ok(()),
-            Stage::Draft(detail) => {
-                let pace = self.paces.of(detail);
-                let size = pace.size(wanted.size);
-                (Some(pace), Request { statistics: false, ..request(wanted, size, 1) })
-            }
-            Stage::Small => {
-                let within_ms = if wanted.moving { TARGET_MS } else { SOON_MS };
-                let size = self.paces.scene.size_within(wanted.size, within_ms);
-                (Some(&mut self.paces.scene), request(wanted, size, REFINEMENTS[0]))
-            }
-            Stage::Whole(0) => (Some(&mut self.paces.scene), request(wanted, wanted.size, REFINEMENTS[0])),
-            Stage::Whole(step) => (None, request(wanted, wanted.size, REFINEMENTS[step])),
-        };
+        let asked = self.paces.request(stage, wanted);
         let started = Instant::now();
         let draft = if let Stage::Draft(detail) = stage { Some(detail) } else { None };
         let renderer = match draft {
@@ -336,39 +301,16 @@ impl Work {
             // Somebody wants another one: it is about to be received.
             return Ok(());
         };
-        if let Some(pace) = pace {
-            pace.learn(asked.size, wanted.size, started.elapsed());
-        }
+        self.paces.learn(stage, asked.size, wanted.size, started.elapsed());
         let (moving, revision, delay) = (wanted.moving, *revision, since.elapsed());
-        self.next = self.after(stage);
+        self.drawn = (revision, stage);
+        self.next = self.situation().map_or(Stage::Nothing, |now| self.paces.after(stage, &now));
         let Some(showing) = &self.showing else { return Ok(()) };
         let settled = self.next == Stage::Nothing && showing.stale.is_none() && !moving;
         let shown = showing.shown(picture, draft, (revision, settled), delay);
         (self.tell)(News::Picture(Box::new(shown)));
         Ok(())
     }
-}
-
-/// How long pictures take, each kind by itself.
-#[derive(Default)]
-struct Paces {
-    scene: Pace,
-    fibers: Pace,
-    cores: Pace,
-}
-
-impl Paces {
-    fn of(&mut self, detail: Detail) -> &mut Pace {
-        match detail {
-            Detail::Fibers => &mut self.fibers,
-            Detail::Cores => &mut self.cores,
-        }
-    }
-}
-
-fn request(wanted: &Wanted, size: [u32; 2], samples: u32) -> Request {
-    let sampling = Sampling::new(samples).unwrap_or(Sampling::FOUR);
-    Request { size, sampling, statistics: wanted.statistics, profile: false }
 }
 
 /// Whether two scenes differ at most in how they are looked at.
