@@ -4,10 +4,11 @@ use std::time::Duration;
 
 /// Time that a picture may take while something moves: twelve a second.
 pub const TARGET_MS: f64 = 80.0;
-/// Steps from nothing to the whole of a picture's sides, so that few sizes are ever used, and the least of them: below it
-/// nobody sees what is dragged.
+/// Steps from nothing to the whole of a picture's sides, so that few sizes are ever used, and the least of them. Below it, and
+/// below so many pixels on the longer side, nobody sees what is dragged.
 const STEPS: u32 = 12;
 const LEAST_STEP: f64 = 2.0;
+const LEAST_SIDE_PX: f64 = 120.0;
 /// Share by which one picture's time moves what is believed of the next one's.
 const BELIEF: f64 = 0.5;
 
@@ -45,7 +46,9 @@ impl Pace {
     /// The size at which it is likely to come within so many milliseconds.
     pub fn size_within(&self, whole: [u32; 2], within_ms: f64) -> [u32; 2] {
         let share = (within_ms / self.whole_ms).sqrt().min(1.0);
-        let step = (share * f64::from(STEPS)).floor().max(LEAST_STEP);
+        let longer = f64::from(whole[0].max(whole[1]).max(1));
+        let least = (f64::from(STEPS) * LEAST_SIDE_PX / longer).ceil().clamp(LEAST_STEP, f64::from(STEPS));
+        let step = (share * f64::from(STEPS)).floor().max(least);
         whole.map(|side| ((f64::from(side) * step / f64::from(STEPS)).round() as u32).max(1))
     }
 
@@ -95,6 +98,7 @@ mod tests {
         let mut pace = Pace::default();
         pace.learn([80, 60], [960, 720], Duration::from_secs(100));
         assert_eq!(pace.size([960, 720]), [160, 120]);
-        assert_eq!(pace.size([3, 1]), [1, 1], "not nothing");
+        assert_eq!(pace.size([360, 240]), [120, 80], "large enough to be seen");
+        assert_eq!(pace.size([90, 1]), [90, 1], "not larger than the whole");
     }
 }
