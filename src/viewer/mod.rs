@@ -25,8 +25,11 @@ pub mod painter;
 pub mod panel;
 mod playing;
 pub mod recent;
+#[cfg(feature = "hot-reload")]
+mod reload;
 mod save;
 pub mod scripts;
 pub mod showing;
 mod toolbar;
+mod tried;
 mod work;

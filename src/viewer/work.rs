@@ -4,6 +4,7 @@ use super::draft::Detail;
 use super::pace::{Pace, TARGET_MS};
 use super::painter::{News, Order, Wanted};
 use super::showing::{Followed, Showing};
+use super::tried::Tried;
 use crate::error::Error;
 use crate::frame::Request;
 use crate::frame::sampling::Sampling;
@@ -59,6 +60,7 @@ pub(super) struct Work {
     newest: Arc<AtomicU64>,
     models: Models,
     paces: Paces,
+    tried: Tried,
     wanted: Option<Order>,
     showing: Option<Showing>,
     /// A scene that is not shown before its tables are there.
@@ -89,6 +91,7 @@ impl Work {
             newest,
             models: Models::default(),
             paces: Paces::default(),
+            tried: Tried::default(),
             remade: true,
             wanted: None,
             showing: None,
@@ -120,7 +123,7 @@ impl Work {
                     Message::Stop => return Ok(()),
                 }
             }
-            self.draw()?;
+            self.trouble_is_told(Self::draw)?;
             self.bake();
         }
         Ok(())
@@ -155,11 +158,21 @@ impl Work {
             Err(error @ Error::Vulkan(VulkanError::TooLarge { .. })) => {
                 (self.tell)(News::Trouble(error.to_string()))
             }
+            Err(Error::Vulkan(VulkanError::Shaders(why))) if self.goes_back(&why) => {
+                return self.trouble_is_told(Self::follow);
+            }
             Err(error @ Error::Vulkan(_)) => return Err(error),
             Err(error) => (self.tell)(News::Trouble(error.to_string())),
             Ok(()) => (),
         }
         Ok(())
+    }
+
+    /// Takes note that shaders are refused; whether there are others to draw with.
+    fn goes_back(&mut self, why: &str) -> bool {
+        let Some(Order { wanted, .. }) = &self.wanted else { return false };
+        tracing::warn!("the device refuses shaders: {}", why.replace('\n', "; "));
+        self.tried.refuse(&wanted.shaders, why)
     }
 
     /// Follows what is wanted as far as what is there can.
@@ -177,6 +190,8 @@ impl Work {
             awaited.file = wanted.file.clone();
             return Ok(());
         }
+        let shaders = self.tried.instead_of(&wanted.shaders);
+        let reshaded = self.showing.as_mut().map(|showing| showing.set_shaders(&shaders)).transpose()?;
         let followed = match &mut self.showing {
             Some(showing) if showing.counts() == wanted.statistics => {
                 showing.follow(&wanted.file, place, request, &mut self.models)?
@@ -186,12 +201,10 @@ impl Work {
                 Followed::Awaited(Box::new(scene))
             }
         };
-        if let Some(showing) = &mut self.showing {
-            showing.set_shaders(wanted.shaders.clone().unwrap_or_default())?;
-        }
         match followed {
             Followed::Awaited(scene) => {
                 self.made += 1;
+                self.tried.try_again();
                 self.awaited = Some(scene);
                 // What is shown meanwhile is not what is wanted.
                 self.next = Stage::Nothing;
@@ -200,9 +213,13 @@ impl Work {
             Followed::Shown { remade } => {
                 self.made += u64::from(remade);
                 self.remade = remade;
+                if remade {
+                    self.tried.try_again();
+                }
             }
             Followed::Already => (),
         }
+        self.remade |= reshaded == Some(true);
         self.awaited = None;
         self.next = self.first();
         Ok(())
@@ -304,6 +321,8 @@ impl Work {
         else {
             return Ok(());
         };
+        let shaders = self.tried.instead_of(&wanted.shaders);
+        showing.set_shaders(&shaders)?;
         let newest = &self.newest;
         let goes_on = |_| !matches!(stage, Stage::Whole(_)) || newest.load(Ordering::Relaxed) == *revision;
         let (pace, asked) = match stage {
@@ -339,10 +358,13 @@ impl Work {
             pace.learn(asked.size, wanted.size, started.elapsed());
         }
         let (moving, revision, delay) = (wanted.moving, *revision, since.elapsed());
+        self.tried.drew(&shaders);
         self.next = self.after(stage);
         let Some(showing) = &self.showing else { return Ok(()) };
         let settled = self.next == Stage::Nothing && showing.stale.is_none() && !moving;
-        let shown = showing.shown(picture, draft, (revision, settled), delay);
+        let mut shown = showing.shown(picture, draft, (revision, settled), delay);
+        let wanted = self.wanted.as_ref().map(|order| &order.wanted.shaders);
+        shown.refused = wanted.and_then(|wanted| self.tried.why_not(wanted)).map(str::to_owned);
         (self.tell)(News::Picture(Box::new(shown)));
         Ok(())
     }

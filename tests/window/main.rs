@@ -4,6 +4,8 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "the helpers of a test may fail it")]
 #![cfg(feature = "viewer")]
 
+#[cfg(feature = "hot-reload")]
+mod reload;
 mod session;
 
 use session::{Session, Shot};

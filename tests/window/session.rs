@@ -35,6 +35,9 @@ pub struct Session {
     window: String,
     log: Receiver<String>,
     heard: Vec<String>,
+    /// Lines that were asked for are before this one.
+    #[cfg(feature = "hot-reload")]
+    asked: usize,
     /// The scene that is edited: a copy of the demo.
     pub scene: PathBuf,
     _home: tempfile::TempDir,
@@ -97,6 +100,8 @@ impl Session {
             window: String::new(),
             log,
             heard: Vec::new(),
+            #[cfg(feature = "hot-reload")]
+            asked: 0,
             scene,
             _home: home,
         };
@@ -144,6 +149,24 @@ impl Session {
                 }
                 Err(RecvTimeoutError::Timeout) if drawn.settled => return drawn,
                 Err(_) => panic!("no picture settled; the log: {:#?}", self.heard),
+            }
+        }
+    }
+
+    /// Waits for a line of the log that has this, behind the one that was waited for last.
+    #[cfg(feature = "hot-reload")]
+    pub fn until_said(&mut self, what: &str) -> String {
+        let started = Instant::now();
+        loop {
+            while let Some(line) = self.heard.get(self.asked) {
+                self.asked += 1;
+                if line.contains(what) {
+                    return line.clone();
+                }
+            }
+            match self.log.recv_timeout(PATIENCE.saturating_sub(started.elapsed())) {
+                Ok(line) => self.heard.push(line),
+                Err(_) => panic!("expected {what:?}; the log: {:#?}", self.heard),
             }
         }
     }
