@@ -108,7 +108,7 @@ fn what_the_compiler_says_names_file_and_line_once_until_it_is_mended() {
         "{said}"
     );
     // Of a file that three shaders include, two by way of another.
-    edited.write("shading/light.glsl", "vec3 light(\n");
+    edited.write("shading/light.glsl", "vec3 light = ;\n");
     let said = found().unwrap_err();
     assert_eq!(said.lines().filter(|line| line.starts_with("shading/light.glsl:")).count(), 1, "{said}");
     assert!(said.contains(&format!("{TONEMAP}:{line}: ")), "{said}");
@@ -229,7 +229,13 @@ const OTHERS: [Other; 18] = [
         "float radius, more;     // R_i",
         "set 1, binding 2: expected StorageBuffer",
     ),
-    (SHADED, "shared/layouts.glsl", "uint seed;", "uint sown;", "set 1, binding 3: expected StorageBuffer"),
+    (
+        SHADED,
+        "shared/layouts.glsl",
+        "// of the whole curve at rest\n    uint padding;",
+        "\n    uint more;",
+        "set 1, binding 11: expected StorageBuffer",
+    ),
     (
         TONEMAP,
         TONEMAP,

@@ -76,7 +76,10 @@ fn complaints(path: &str, error: GlslangError) -> Vec<String> {
         | GlslangError::LinkError(log) => log.log,
         other => return vec![format!("{path}: {other}")],
     };
-    let told = log.lines().map(str::trim).filter(|line| !line.is_empty() && !line.ends_with("generated."));
+    let of_itself = |line: &str| {
+        line.is_empty() || line.ends_with("generated.") || line.ends_with(": compilation terminated")
+    };
+    let told = log.lines().map(str::trim).filter(|line| !of_itself(line));
     let told: Vec<String> = told.map(|line| placed(path, line)).collect();
     if told.is_empty() { vec![format!("{path}: refused without a reason")] } else { told }
 }

@@ -33,18 +33,19 @@ pub fn differences(embedded: &[u32], edited: &[u32]) -> Result<Vec<String>, Stri
     let places: BTreeSet<&String> = ours.parts.keys().chain(theirs.parts.keys()).collect();
     let of = |parts: &BTreeMap<String, String>, place: &String| parts.get(place).cloned();
     let none = || "none".to_owned();
-    let parts = places.into_iter().filter_map(|place| {
-        let (expected, found) = (of(&ours.parts, place), of(&theirs.parts, place));
-        (expected != found).then(|| {
-            format!(
-                "{place}: expected {}, found {}",
-                expected.unwrap_or_else(none),
-                found.unwrap_or_else(none)
-            )
+    let parts: Vec<(String, String)> = places
+        .into_iter()
+        .filter_map(|place| {
+            let (expected, found) = (of(&ours.parts, place), of(&theirs.parts, place));
+            let differs = expected != found;
+            let [expected, found] = [expected, found].map(|part| part.unwrap_or_else(none));
+            differs.then(|| (place.clone(), format!("{place}: expected {expected}, found {found}")))
         })
-    });
-    let uses = theirs.uses.difference(&ours.uses).map(|new| format!("{new}: not in this build's shader"));
-    Ok(parts.chain(uses).collect())
+        .collect();
+    let is_named = |new: &str| parts.iter().any(|(place, _)| new.starts_with(&format!("{place}, ")));
+    let uses = theirs.uses.difference(&ours.uses).filter(|new| !is_named(new));
+    let uses: Vec<String> = uses.map(|new| format!("{new}: not in this build's shader")).collect();
+    Ok(parts.into_iter().map(|(_, line)| line).chain(uses).collect())
 }
 
 impl Interface {

@@ -218,17 +218,19 @@ impl Desk {
         let Some(reload) = &self.reload else { return };
         let refused = || self.shown.as_ref().and_then(|shown| shown.refused.as_deref());
         let Some(message) = reload.message.as_deref().or_else(refused) else { return };
-        let area = egui::Area::new("shaders".into()).pivot(Align2::LEFT_TOP);
+        // An area stays as large as it was at first: another message is another one.
+        let id = egui::Id::new(("shaders", message, place.width() as u32, place.height() as u32));
+        let area = egui::Area::new(id).pivot(Align2::LEFT_TOP);
         let inset = vec2(8.0, 8.0);
         area.fixed_pos(place.min + inset).constrain_to(place).show(ui.ctx(), |ui| {
             egui::Frame::popup(ui.style()).fill(Color32::from_black_alpha(220)).show(ui, |ui| {
                 ui.set_width(place.width() - 4.0 * inset.x);
-                let head = "The shaders of before are drawn with, until this is mended:";
+                let head = "Drawn with the shaders before, until this is mended:";
                 ui.label(RichText::new(head).color(Color32::WHITE));
-                let scroll = egui::ScrollArea::both().max_height(MESSAGE_SHARE * place.height());
+                let scroll = egui::ScrollArea::vertical().max_height(MESSAGE_SHARE * place.height());
                 scroll.auto_shrink([false, true]).show(ui, |ui| {
                     let text = RichText::new(message).monospace().color(Color32::LIGHT_RED);
-                    ui.add(egui::Label::new(text).extend().selectable(true));
+                    ui.add(egui::Label::new(text).wrap().selectable(true));
                 });
             });
         });
