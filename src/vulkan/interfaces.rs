@@ -71,8 +71,10 @@ impl Interfaces {
 mod tests {
     use super::*;
 
-    /// A decoration and a variable: `[id, class, decorations]`.
-    fn words(variables: &[(u32, StorageClass, &[(Decoration, u32)])]) -> Vec<u32> {
+    /// A variable: its id, its class and what decorates it.
+    type Declared<'a> = (u32, StorageClass, &'a [(Decoration, u32)]);
+
+    fn words(variables: &[Declared<'_>]) -> Vec<u32> {
         let mut words = vec![0; HEADER_WORDS];
         for (id, _, decorations) in variables {
             for (decoration, number) in *decorations {
