@@ -6,6 +6,8 @@ pub mod folder;
 mod glsl;
 #[cfg(feature = "hot-reload")]
 mod interface;
+#[cfg(feature = "hot-reload")]
+mod order;
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};

@@ -1,6 +1,7 @@
 //! Shaders compiled from a folder like `glsl/` that somebody edits.
 
 use super::interface::differences;
+use super::order::used_too_early;
 use super::{ShaderSet, all, glsl};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -98,6 +99,9 @@ fn compiled(name: &'static str, embedded: &[u32], texts: &Texts<'_>) -> Compiled
     let compile = || {
         let stage = glsl::stage_of(name).ok_or_else(|| format!("{name}: no stage has this name"))?;
         let words = glsl::compile(name, stage, &reading)?;
+        if let Some(why) = used_too_early(&words).map_err(|why| format!("{name}: {why}"))? {
+            return Err(format!("{name}: {why}"));
+        }
         let differences = differences(embedded, &words).map_err(|why| format!("{name}: {why}"))?;
         match differences.is_empty() {
             true => Ok(words),

@@ -337,6 +337,24 @@ fn a_shader_with_another_interface_is_refused_and_the_difference_named() {
 }
 
 #[test]
+fn values_that_are_used_before_they_are_there_are_refused() {
+    let uses = [
+        "for (int i = 0; i < 4; ++i) { if (READS_PLACE) { continue; } radiance.x += 1.0; }",
+        "radiance.x = AT_VERTICES ? 2.0 : (READS_PLACE ? 3.0 : 1.0);",
+        "if (!AT_VERTICES || READS_PLACE) { radiance.x = 1.0; }",
+    ];
+    for uses in uses {
+        let edited = Edited::of(&[SHADED]);
+        edited.replace(SHADED, "void main() {", &format!("void main() {{\n    {uses}"));
+        let said = edited.refused();
+        assert!(said.starts_with("passes/fibers.frag: `READS_PLACE` is used where it is not"), "{said}");
+    }
+    for (path, words) in all() {
+        assert_eq!(used_too_early(words), Ok(None), "{path}");
+    }
+}
+
+#[test]
 fn what_changes_no_interface_is_drawn_with() {
     let edits = [
         (SHADED, "    if (AT_VERTICES) {", "    if (gl_FragCoord.x < 0.0) {"),
