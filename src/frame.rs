@@ -90,7 +90,6 @@ pub struct Renderer {
     parts: Vec<(usize, u32)>,
     shadow_map: Option<ShadowMapPass>,
     fibers: FibersPass,
-    shaders: ShaderSet,
     tables: Tables,
     layers: Option<LayersPass>,
     resolve: ResolvePass,
@@ -123,7 +122,7 @@ impl Renderer {
         Self::built(device, scene, request, ShaderSet::default(), kept)
     }
 
-    /// The same with other shaders between yarn and radiance.
+    /// The same with other shaders.
     ///
     /// # Errors
     /// Those of the device.
@@ -144,9 +143,9 @@ impl Renderer {
         shaders: ShaderSet,
         kept: &Kept,
     ) -> Result<Self, VulkanError> {
-        let pipelines = KeptPipelines::new(device, kept)?;
+        let pipelines = KeptPipelines::new(device, shaders, kept)?;
         let tables = Tables::bake(&scene, &request, kept)?;
-        Self::assembled(device, scene, request, shaders, pipelines, tables)
+        Self::assembled(device, scene, request, pipelines, tables)
     }
 
     /// Uploads the scene with tables that are there, and builds the passes that it needs.
@@ -154,11 +153,10 @@ impl Renderer {
         device: &Arc<Device>,
         scene: Scene,
         request: Request,
-        shaders: ShaderSet,
         pipelines: KeptPipelines,
         tables: Tables,
     ) -> Result<Self, VulkanError> {
-        let building = &pipelines.pipelines;
+        let building = &pipelines.builder;
         let samples = request.sampling.multisampling();
         let targets = Targets::new(device, request.size, samples)?;
         let uniform = vk::BufferUsageFlags::UNIFORM_BUFFER;
@@ -182,9 +180,9 @@ impl Renderer {
             shadow_map: map.as_ref().map(|map| map.image.clone()),
         };
         let views = shadow_views.clone();
-        let mut shadow_map = map.zip(views).map(|(map, views)| ShadowMapPass::new(map, views, TUBE_CORNERS));
-        let mut fibers =
-            FibersPass::new(building, buffers, &features, samples)?.with_shaders(shaders.clone());
+        let shadows = |(map, views)| ShadowMapPass::new(building, map, views, TUBE_CORNERS);
+        let mut shadow_map = map.zip(views).map(shadows);
+        let mut fibers = FibersPass::new(building, buffers, &features, samples)?;
         let mut stats = Stats::new(device, &scene, &request);
         let started = Instant::now();
         let environment = upload::environment(&scene);
@@ -211,7 +209,7 @@ impl Renderer {
                 fibers.add_fabric(&buffers, features)?;
                 let read_by = fibers.layouts(parts.len()).zip(fibers.sets(parts.len()));
                 if let Some((pass, (layouts, sets))) = shadow_map.as_mut().zip(read_by) {
-                    pass.add_fabric(building, &features, &layouts, sets, pieces)?;
+                    pass.add_fabric(&features, layouts, sets, pieces);
                 }
                 if let Some((pass, (layouts, sets))) = layers.as_mut().zip(read_by) {
                     pass.add_fabric(index, &features, layouts, sets);
@@ -242,7 +240,6 @@ impl Renderer {
             parts,
             shadow_map,
             fibers,
-            shaders,
             tables,
             layers,
             pipelines,
@@ -282,7 +279,7 @@ impl Renderer {
         self.stats.left_out_of_frame.clear();
         let unseen = self.plan(&camera)?;
         self.pipelines.keep()?;
-        self.stats.set_pipelines(self.pipelines.pipelines.building(), self.pipelines.found_bytes);
+        self.stats.set_pipelines(self.pipelines.builder.pipelines.building(), self.pipelines.found_bytes);
         let frames = self.request.sampling.frames();
         let mut taken = Taken::NOTHING;
         let mut passes = HashMap::new();

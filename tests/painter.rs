@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "the helpers of a test may fail it")]
 #![cfg(feature = "viewer")]
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -10,11 +11,14 @@ use worsted::frame::sampling::Sampling;
 use worsted::frame::{Renderer, Request};
 use worsted::io::kept::Kept;
 use worsted::scene::Scene;
+use worsted::shaders::ShaderSet;
 use worsted::viewer::painter::{News, Painter, Shown, Wanted};
 use worsted::vulkan::{Device, DeviceChoice};
 
 #[path = "support/device.rs"]
 mod device;
+#[path = "../src/shaders/glsl.rs"]
+mod glsl;
 
 /// A file of a demo that is small enough to be drawn again and again.
 const SCENE: &str = "models/demo.toml";
@@ -36,7 +40,7 @@ fn wanted(sets: &[&str]) -> Wanted {
         moving: false,
         statistics: false,
         most_samples: 16,
-        shaders: None,
+        shaders: ShaderSet::default(),
     }
 }
 
@@ -189,4 +193,79 @@ fn a_painter_that_is_stopped_leaves_nothing_on_the_device() {
     while painter.news.try_recv().is_ok() {}
     drop(painter);
     Device::shutdown(device).unwrap();
+}
+
+const TONEMAP: &str = "passes/tonemap.comp";
+const SHADED: [&str; 2] = ["passes/fibers.frag", "passes/core.frag"];
+
+/// The embedded shaders, in some of which a text that stands there once is replaced.
+fn changed(shaders: &[&str], from: &str, to: &str) -> ShaderSet {
+    let read = |path: &str| std::fs::read_to_string(Path::new("glsl").join(path)).map_err(|e| e.to_string());
+    let compiled = |shader: &&str| {
+        let text =
+            |path: &str| Ok(if path == *shader { read(path)?.replacen(from, to, 1) } else { read(path)? });
+        assert!(read(shader).unwrap().contains(from), "{shader}: {from}");
+        let words = glsl::compile(shader, glsl::stage_of(shader).unwrap(), &text).unwrap();
+        (shader.to_string(), words)
+    };
+    ShaderSet::replacing(shaders.iter().map(compiled).collect())
+}
+
+/// No fiber is shaded at its vertices, where its fragment shader does nothing.
+const AT_PIXELS: &str = "quality.vertex_shaded_samples=0";
+
+#[test]
+fn changed_shaders_change_the_picture_and_the_embedded_ones_bring_it_back() {
+    let painter = painter();
+    painter.want(wanted(&[AT_PIXELS]));
+    let first = until_settled(&painter).pop().unwrap();
+    let drawn = |shaders: &ShaderSet| {
+        painter.want(Wanted { shaders: shaders.clone(), ..wanted(&[AT_PIXELS]) });
+        let shown = until_settled(&painter).pop().unwrap();
+        assert_eq!(shown.refused, None);
+        shown
+    };
+    let swapped = drawn(&changed(&[TONEMAP], "vec4(encoded, alpha)", "vec4(encoded.bgr, alpha)"));
+    let expected: Vec<_> = first.picture.display.iter().map(|&[r, g, b, a]| [b, g, r, a]).collect();
+    assert!(swapped.picture.display == expected && swapped.picture.linear == first.picture.linear);
+    assert_eq!(swapped.stats.pipelines_built, first.stats.pipelines_built + 1, "no other pipeline uses it");
+    let radiance = "radiance = strand_color(strand);";
+    let red = drawn(&changed(&SHADED, radiance, "radiance = vec4(strand_color(strand).r, 0.0, 0.0, 1.0);"));
+    let covered: Vec<_> = red.picture.linear.iter().filter(|pixel| pixel[3] > 0.0).collect();
+    assert!(covered.len() > 500 && covered.iter().all(|pixel| pixel[1] == 0.0 && pixel[2] == 0.0));
+    assert!(covered.iter().any(|pixel| pixel[0] > 0.0));
+    let again = drawn(&ShaderSet::default());
+    assert!(again.picture.display == first.picture.display, "to the byte");
+    assert_eq!(again.stats.pipelines_built, red.stats.pipelines_built, "what is embedded is there still");
+}
+
+#[test]
+fn shaders_that_the_scene_has_no_place_for_are_refused_and_those_before_stay() {
+    let painter = painter();
+    let without = &["shadow.map=false", AT_PIXELS][..];
+    let drawn = |sets: &[&str], shaders: &ShaderSet| {
+        painter.want(Wanted { shaders: shaders.clone(), ..wanted(sets) });
+        until_settled(&painter).pop().unwrap()
+    };
+    let swapped = changed(&[TONEMAP], "vec4(encoded, alpha)", "vec4(encoded.bgr, alpha)");
+    let before = drawn(without, &swapped);
+    let refused = |shaders: &ShaderSet, why: &str| {
+        let shown = drawn(without, shaders);
+        let said = shown.refused.clone().unwrap_or_default();
+        assert!(said.contains(why), "expected {why:?} in {said:?}");
+        assert!(shown.picture.display == before.picture.display, "{why}");
+    };
+    let radiance = "radiance = strand_color(strand);";
+    let views = "radiance = strand_color(strand) + 0.0 * shadow_views[0].toward;";
+    let of_shadows = changed(&SHADED, radiance, views);
+    refused(&of_shadows, "set 0, binding 3");
+    let of_vertices = "radiance = strand_color(strand) + 0.0 * vec4(fragment_radiance, 0.0);";
+    refused(&changed(&SHADED[..1], radiance, of_vertices), "location 8");
+    refused(&ShaderSet::replacing(BTreeMap::from([(TONEMAP.to_owned(), vec![1, 2, 3])])), "not SPIR-V");
+    // What is wanted besides is done, and another scene may have a place for them.
+    let elsewhere = drawn(&["shadow.map=false", AT_PIXELS, "camera.yaw_deg=9"], &of_shadows);
+    assert!(elsewhere.refused.is_some() && elsewhere.picture.display != before.picture.display);
+    let shadowed = drawn(&["shadow.map=true", AT_PIXELS], &of_shadows);
+    assert_eq!(shadowed.refused, None);
+    assert!(shadowed.picture.display == rendered(&["shadow.map=true", AT_PIXELS], 16));
 }

@@ -1,6 +1,7 @@
 //! Compiles every shader under `glsl/` to SPIR-V and embeds the words: see `src/shaders.rs`. Hashes the code that bakes
 //! tables: see `src/precompute/stored.rs`.
 
+#[path = "../src/shaders/glsl.rs"]
 mod glsl;
 
 use std::collections::hash_map::DefaultHasher;
@@ -9,7 +10,7 @@ use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 /// What decides the SPIR-V.
-const OF_SHADERS: &[&str] = &["glsl", "tools/build.rs", "tools/glsl.rs", "Cargo.lock"];
+const OF_SHADERS: &[&str] = &["glsl", "tools/build.rs", "src/shaders/glsl.rs", "Cargo.lock"];
 /// What decides baked tables: `precompute` and all it may import.
 const OF_BAKERS: &[&str] = &["src/precompute", "src/bsdf", "src/io", "src/math", "src/yarn", "Cargo.lock"];
 
@@ -60,7 +61,9 @@ fn shaders() -> String {
     for file in &files {
         let name = glsl::slashed(file.strip_prefix(&root).expect("collected under the root"));
         let Some(stage) = glsl::stage_of(&name) else { continue };
-        let words = glsl::compile(&name, stage, &|path| std::fs::read_to_string(root.join(path)).ok());
+        let words = glsl::compile(&name, stage, &|path| {
+            std::fs::read_to_string(root.join(path)).map_err(|e| e.to_string())
+        });
         let words = words.unwrap_or_else(|error| {
             eprintln!("glsl/{error}");
             std::process::exit(1);

@@ -10,6 +10,7 @@ use crate::frame::check_tables;
 use crate::io::cache::Cache;
 use crate::io::whole::check_target;
 use crate::scene::Scene;
+use crate::shaders::ShaderSet;
 use crate::viewer::app::{Opening, run as open};
 use crate::viewer::desk::Look;
 use crate::viewer::document::Document;
@@ -26,6 +27,12 @@ pub fn run(args: &View, common: &Common) -> Result<(), Error> {
     if let Some(path) = &args.screenshot {
         check_target(path)?;
     }
+    #[cfg(feature = "hot-reload")]
+    if let Some(folder) = args.shaders.as_ref().filter(|folder| !folder.is_dir()) {
+        let found = if folder.exists() { "a file" } else { "none" };
+        let what = format!("--shaders {}: expected a folder of shaders, found {found}", folder.display());
+        return Err(Error::Arguments(what));
+    }
     let mut document = Document::open(&args.scene.path)?;
     for assignment in assignments(&args.scene, args.time.frame, args.view.camera.as_deref())? {
         document.assign(&assignment).map_err(|why| Error::Arguments(format!("--set {assignment}: {why}")))?;
@@ -37,8 +44,10 @@ pub fn run(args: &View, common: &Common) -> Result<(), Error> {
     recent.note(&args.scene.path);
     open(Opening {
         document,
-        look: Look { most_samples: args.samples, statistics: true, shaders: None },
+        look: Look { most_samples: args.samples, statistics: true, shaders: ShaderSet::default() },
         reference: args.reference.clone(),
+        #[cfg(feature = "hot-reload")]
+        shaders: args.shaders.clone(),
         size: parse_size(&args.view.size)?,
         device: device_options(common),
         kept: kept(args.no_cache, &args.cache),

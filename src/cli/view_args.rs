@@ -23,6 +23,10 @@ pub struct View {
     /// Compare with this picture of linear radiance (`.exr`); pictures then have its size.
     #[arg(long, value_name = "FILE.exr")]
     pub reference: Option<PathBuf>,
+    /// Draw with the shaders of this folder, which is like `glsl/` of the source, and again whenever a file there changes.
+    #[cfg(feature = "hot-reload")]
+    #[arg(long, value_name = "FOLDER")]
+    pub shaders: Option<PathBuf>,
     /// Write the picture that is shown last, when the window closes by itself, and the scene beside it.
     #[arg(long, value_name = "FILE.png", requires = "exit_after_frames")]
     pub screenshot: Option<PathBuf>,

@@ -5,6 +5,7 @@ use super::lighting::LightRoom;
 use super::tables::{Tables, features_by};
 use super::{Renderer, Request};
 use crate::io::kept::Kept;
+use crate::passes::pipelines::Builder;
 use crate::passes::resolve::ResolvePass;
 use crate::passes::targets::Targets;
 use crate::passes::tonemap::TonemapPass;
@@ -29,8 +30,8 @@ impl Renderer {
         tables: Tables,
         kept: &Kept,
     ) -> Result<Self, VulkanError> {
-        let pipelines = KeptPipelines::new(device, kept)?;
-        Self::assembled(device, scene, request, ShaderSet::default(), pipelines, tables)
+        let pipelines = KeptPipelines::new(device, ShaderSet::default(), kept)?;
+        Self::assembled(device, scene, request, pipelines, tables)
     }
 
     /// The camera the scene asks for.
@@ -62,13 +63,12 @@ impl Renderer {
         Ok(())
     }
 
-    /// Another renderer of the same device and pipelines, with tables that are there.
+    /// Another renderer of the same device, shaders and pipelines, with tables that are there.
     ///
     /// # Errors
     /// Those of the device.
     pub fn beside(&self, scene: Scene, request: Request, tables: Tables) -> Result<Self, VulkanError> {
-        let (shaders, pipelines) = (self.shaders.clone(), self.pipelines.clone());
-        Self::assembled(&self.device, scene, request, shaders, pipelines, tables)
+        Self::assembled(&self.device, scene, request, self.pipelines.clone(), tables)
     }
 
     /// Shows pictures otherwise from now on.
@@ -76,7 +76,7 @@ impl Renderer {
     /// # Errors
     /// Those of the device.
     pub fn set_display(&mut self, display: DisplayTable) -> Result<(), VulkanError> {
-        self.tonemap = TonemapPass::new(&self.pipelines.pipelines, &self.targets, &display)?;
+        self.tonemap = TonemapPass::new(&self.pipelines.builder, &self.targets, &display)?;
         self.scene.file.display = display;
         Ok(())
     }
@@ -94,7 +94,7 @@ impl Renderer {
             return Err(VulkanError::misuse(message));
         }
         if request.size != self.targets.size {
-            let building = &self.pipelines.pipelines;
+            let building = &self.pipelines.builder;
             self.targets = Targets::new(&self.device, request.size, samples)?;
             self.resolve = ResolvePass::new(building, &self.targets)?;
             self.tonemap = TonemapPass::new(building, &self.targets, &self.scene.file.display)?;
@@ -148,27 +148,38 @@ impl Renderer {
     /// # Errors
     /// Those of the device; the renderer is then as before.
     pub fn edit(&mut self, scene: Scene, tables: Tables) -> Result<(), VulkanError> {
-        let (shaders, pipelines) = (self.shaders.clone(), self.pipelines.clone());
-        *self = Self::assembled(&self.device.clone(), scene, self.request, shaders, pipelines, tables)?;
+        *self = Self::assembled(&self.device.clone(), scene, self.request, self.pipelines.clone(), tables)?;
         Ok(())
     }
 
-    /// Draws with other shaders between yarn and radiance from now on.
+    /// Draws with other shaders from now on. Nothing but pipelines is made anew, and of them those alone whose shaders
+    /// differ: here, or where a picture first needs them.
     ///
     /// # Errors
-    /// Those of the device; the renderer is then as before.
+    /// [`VulkanError::Shaders`] where the device refuses them; the renderer is then as before. Shaders that only a
+    /// picture finds to be refused are its error, and others may be set instead.
     pub fn set_shaders(&mut self, shaders: ShaderSet) -> Result<(), VulkanError> {
-        if shaders == self.shaders {
+        if shaders == *self.shaders() {
             return Ok(());
         }
-        let (scene, pipelines, tables) = (self.scene.clone(), self.pipelines.clone(), self.tables.clone());
-        *self = Self::assembled(&self.device.clone(), scene, self.request, shaders, pipelines, tables)?;
+        let builder = Builder { shaders, ..self.pipelines.builder.clone() };
+        let resolve = ResolvePass::new(&builder, &self.targets)?;
+        let tonemap = TonemapPass::new(&builder, &self.targets, &self.scene.file.display)?;
+        (self.resolve, self.tonemap) = (resolve, tonemap);
+        self.fibers.rebuild(&builder);
+        if let Some(layers) = &mut self.layers {
+            layers.rebuild(&builder);
+        }
+        if let Some(shadow_map) = &mut self.shadow_map {
+            shadow_map.rebuild(&builder);
+        }
+        self.pipelines.builder = builder;
         Ok(())
     }
 
-    /// Whether pictures are drawn with these shaders.
-    pub fn has_shaders(&self, shaders: &ShaderSet) -> bool {
-        *shaders == self.shaders
+    /// The shaders that pictures are drawn with.
+    pub fn shaders(&self) -> &ShaderSet {
+        &self.pipelines.builder.shaders
     }
 
     /// The tables that pictures are drawn with.

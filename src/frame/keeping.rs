@@ -1,9 +1,9 @@
 //! What one run leaves to the next: baked tables, and pipelines as the driver compiled them.
 
 use crate::io::kept::{Kept, Key};
-use crate::passes::pipelines::{Building, Pipelines};
+use crate::passes::pipelines::{Builder, Building, Pipelines};
 use crate::precompute::stored::{BAKERS, Stored};
-use crate::shaders;
+use crate::shaders::{self, ShaderSet};
 use crate::vulkan::{Device, PipelineCache, VulkanError};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -73,7 +73,7 @@ pub fn last_bake_ms(kept: &Kept, name: &str) -> Option<f64> {
 #[derive(Clone)]
 pub struct KeptPipelines {
     /// What passes build theirs with.
-    pub pipelines: Arc<Pipelines>,
+    pub builder: Builder,
     /// Where tables are kept as well.
     pub kept: Kept,
     key: Key,
@@ -83,11 +83,12 @@ pub struct KeptPipelines {
 }
 
 impl KeptPipelines {
-    /// Starts from what an earlier run left, if it was by the same driver and shaders.
+    /// Of these shaders, starting from what an earlier run left, if it was by the same driver and embedded shaders. Of
+    /// others nothing is kept.
     ///
     /// # Errors
     /// Those of the device.
-    pub fn new(device: &Arc<Device>, kept: &Kept) -> Result<Self, VulkanError> {
+    pub fn new(device: &Arc<Device>, shaders: ShaderSet, kept: &Kept) -> Result<Self, VulkanError> {
         let key = Key::new("pipelines", device.driver()).bytes(device.name().as_bytes());
         let key = match kept.is_on() {
             true => shaders::all().fold(key, |key, (name, words)| {
@@ -98,9 +99,9 @@ impl KeptPipelines {
         let found = kept.get(PIPELINES, &key);
         let cache = || PipelineCache::new(device, found.as_deref().unwrap_or_default());
         let cache = kept.is_on().then(cache).transpose()?;
-        let pipelines = Arc::new(Pipelines::new(device, cache));
+        let builder = Builder { pipelines: Arc::new(Pipelines::new(device, cache)), shaders };
         let found_bytes = found.map(|bytes| bytes.len() as u64);
-        Ok(Self { pipelines, kept: kept.clone(), key, found_bytes, written: Building::default() })
+        Ok(Self { builder, kept: kept.clone(), key, found_bytes, written: Building::default() })
     }
 
     /// Keeps what was built since the last time, if anything was.
@@ -108,8 +109,9 @@ impl KeptPipelines {
     /// # Errors
     /// Those of the device.
     pub fn keep(&mut self) -> Result<(), VulkanError> {
-        let building = self.pipelines.building();
-        let Some(cache) = self.pipelines.cache().filter(|_| building != self.written) else { return Ok(()) };
+        let pipelines = &self.builder.pipelines;
+        let building = pipelines.building();
+        let Some(cache) = pipelines.cache().filter(|_| building != self.written) else { return Ok(()) };
         self.written = building;
         let data = cache.data()?;
         // The driver adds to what it was given: as many bytes are the same ones.

@@ -2,6 +2,7 @@
 
 use super::{Renderer, Request};
 use crate::passes::draw_plan::DrawPlan;
+use crate::passes::shadow_map::ShadowMapPass;
 use crate::passes::strand_pipeline::{Manner, Strands};
 use crate::scene::camera::Camera;
 use crate::scene::features::Features;
@@ -26,6 +27,7 @@ impl Renderer {
         let draws = |part: usize, strands, manner| planned.draws(parts[part], strands, manner);
         self.fibers.plan(draws)?;
         self.layers.as_mut().map_or(Ok(()), |layers| layers.plan(draws))?;
+        self.shadow_map.as_mut().map_or(Ok(()), ShadowMapPass::plan)?;
         let left_out = || scene.fabrics.iter().enumerate().filter(|(index, _)| planned.unseen(*index));
         self.stats.add_left_out_of_frame(left_out().map(|(index, fabric)| {
             (format!("fabric {index} ({})", fabric.name), "all of it is outside the picture".to_owned())

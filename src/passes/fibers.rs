@@ -2,17 +2,15 @@
 
 use super::draw_plan::{DrawPlan, part_count, part_draws};
 use super::fiber_sets::{FabricBuffers, FabricSamplers, FrameBuffers, fabric_layout, frame_set};
-use super::pipelines::Pipelines;
+use super::pipelines::Builder;
 use super::strand_pipeline::{Manner, Strands, strand_pipeline};
 use super::targets::Targets;
 use crate::graph::{Pass, Use};
 use crate::scene::features::Features;
-use crate::shaders::ShaderSet;
 use crate::vulkan::{
     Access, ColorTarget, Commands, DepthTarget, DescriptorLayout, DescriptorSet, Image, ImageState, Pipeline,
     Rendering, VulkanError, vk,
 };
-use std::sync::Arc;
 
 /// One pipeline's draws of one fabric.
 struct FabricDraw {
@@ -28,8 +26,7 @@ struct FabricDraw {
 
 /// The pass: layouts, pipelines by features, and what is drawn.
 pub struct FibersPass {
-    built: Arc<Pipelines>,
-    shaders: ShaderSet,
+    builder: Builder,
     frame_layout: DescriptorLayout,
     frame: FrameBuffers,
     frame_set: DescriptorSet,
@@ -46,15 +43,14 @@ impl FibersPass {
     /// # Errors
     /// Those of the device; buffers that no feature asks for, or that are missing.
     pub fn new(
-        pipelines: &Arc<Pipelines>,
+        builder: &Builder,
         frame: FrameBuffers,
         features: &[Features],
         samples: vk::SampleCountFlags,
     ) -> Result<Self, VulkanError> {
-        let (frame_layout, frame_set) = frame_set(pipelines.device(), &frame, features)?;
+        let (frame_layout, frame_set) = frame_set(builder.device(), &frame, features)?;
         Ok(Self {
-            built: pipelines.clone(),
-            shaders: ShaderSet::default(),
+            builder: builder.clone(),
             frame_layout,
             frame,
             frame_set,
@@ -65,10 +61,10 @@ impl FibersPass {
         })
     }
 
-    /// The pass with other shaders for the fabrics that follow.
-    #[must_use]
-    pub fn with_shaders(self, shaders: ShaderSet) -> Self {
-        Self { shaders, ..self }
+    /// Draws with pipelines of this builder from now on.
+    pub fn rebuild(&mut self, builder: &Builder) {
+        self.builder = builder.clone();
+        self.draws.iter_mut().for_each(|draw| draw.pipeline = None);
     }
 
     /// Layouts of sets 0 and 1 of a fabric, for kernels that read the same buffers.
@@ -89,9 +85,9 @@ impl FibersPass {
         let alike = self.fabrics.iter().find(|(other, ..)| *other == features);
         let layout = match alike {
             Some((_, layout, _)) => layout.clone(),
-            None => fabric_layout(self.built.device(), &features)?,
+            None => fabric_layout(self.builder.device(), &features)?,
         };
-        let set = self.samplers.fabric_set(self.built.device(), &layout, buffers)?;
+        let set = self.samplers.fabric_set(self.builder.device(), &layout, buffers)?;
         let fabric = self.fabrics.len();
         self.fabrics.push((features, layout.clone(), set));
         // Cores first, those of all fabrics: what lies behind them is then never shaded.
@@ -120,14 +116,10 @@ impl FibersPass {
             if draw.pipeline.is_some() || draw.plan.draw_count() == 0 {
                 continue;
             }
-            let (what, features) = ((draw.strands, draw.manner), &draw.features);
+            let what = (draw.strands, draw.manner);
             let layouts = [&self.frame_layout, &self.fabrics[draw.fabric].1];
-            let bindings = layouts.map(DescriptorLayout::bindings);
-            let name =
-                format!("{what:?} {features:?} {:?} {bindings:?} {}", self.samples, self.shaders.digest());
-            let build =
-                || strand_pipeline(&self.built, &self.shaders, features, what, self.samples, &layouts);
-            draw.pipeline = Some(self.built.get(name, build)?);
+            let pipeline = strand_pipeline(&self.builder, &draw.features, what, self.samples, &layouts)?;
+            draw.pipeline = Some(pipeline);
         }
         Ok(())
     }

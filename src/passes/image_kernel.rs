@@ -1,7 +1,6 @@
 //! A compute pass from one image to another, pixel by pixel.
 
-use super::pipelines::Pipelines;
-use super::spirv;
+use super::pipelines::Builder;
 use super::targets::groups;
 use crate::vulkan::{
     Binding, Commands, ComputePipelineInfo, DescriptorLayout, DescriptorSet, Image, Pipeline, Resource,
@@ -23,7 +22,7 @@ impl ImageKernel {
     /// # Errors
     /// Those of the device.
     pub fn new(
-        pipelines: &Pipelines,
+        builder: &Builder,
         name: &str,
         shader: &str,
         constants: &SpecializationConstants,
@@ -35,17 +34,19 @@ impl ImageKernel {
             kind: vk::DescriptorType::STORAGE_IMAGE,
             stages: vk::ShaderStageFlags::COMPUTE,
         };
-        let layout = DescriptorLayout::new(pipelines.device(), name, &[binding(0), binding(1)])?;
-        let info = ComputePipelineInfo {
-            name,
-            spirv: spirv(shader)?,
-            constants,
-            set_layouts: &[&layout],
-            push_constant_bytes: push_constant_bytes as u32,
-            cache: pipelines.cache(),
-        };
+        let layout = DescriptorLayout::new(builder.device(), name, &[binding(0), binding(1)])?;
         let what = format!("{shader} {constants:?} {push_constant_bytes}");
-        let pipeline = pipelines.get(what, || Pipeline::compute(pipelines.device(), &info))?;
+        let pipeline = builder.get(&what, &[shader], |cache| {
+            let info = ComputePipelineInfo {
+                name,
+                spirv: builder.words(shader)?,
+                constants,
+                set_layouts: &[&layout],
+                push_constant_bytes: push_constant_bytes as u32,
+                cache,
+            };
+            Pipeline::compute(builder.device(), &info)
+        })?;
         let [a, b] = images.map(|image| Resource::StorageImage(image.view()));
         let set = DescriptorSet::new(&layout, name, &[(0, a), (1, b)])?;
         let [width, height, _] = images[0].extent();

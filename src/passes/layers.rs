@@ -2,8 +2,8 @@
 //! very fibers that the picture shows.
 
 use super::draw_plan::{DrawPlan, part_count, part_draws};
-use super::pipelines::Pipelines;
-use super::spirv;
+use super::pipelines::Builder;
+use super::stages::Stages;
 use super::strand_pipeline::{Manner, Strands, specialization};
 use super::targets::DEPTH_FORMAT;
 use crate::graph::{Pass, Use};
@@ -11,8 +11,7 @@ use crate::scene::features::Features;
 use crate::scene::needs::{Need, any_needs};
 use crate::vulkan::{
     Access, Buffer, ColorTarget, Commands, DepthState, DepthTarget, DescriptorLayout, DescriptorSet, Device,
-    GraphicsPipelineInfo, Image, ImageInfo, ImageState, Pipeline, Rendering, ShaderStage, VulkanError,
-    trimmed, vk,
+    GraphicsPipelineInfo, Image, ImageInfo, ImageState, Pipeline, PipelineCache, Rendering, VulkanError, vk,
 };
 use std::sync::Arc;
 
@@ -72,7 +71,7 @@ impl Images {
 
 /// The pass over the fibers of all fabrics.
 pub struct LayersPass {
-    built: Arc<Pipelines>,
+    builder: Builder,
     images: Images,
     frame: Buffer,
     draws: Vec<LayerDraw>,
@@ -86,7 +85,7 @@ impl LayersPass {
     /// # Errors
     /// Those of the device.
     pub fn new(
-        pipelines: &Arc<Pipelines>,
+        builder: &Builder,
         frame: &Buffer,
         features: &[Features],
         size: [u32; 2],
@@ -96,8 +95,8 @@ impl LayersPass {
             return Ok(None);
         }
         Ok(Some(Self {
-            built: pipelines.clone(),
-            images: Images::new(pipelines.device(), asked, size)?,
+            builder: builder.clone(),
+            images: Images::new(builder.device(), asked, size)?,
             frame: frame.clone(),
             draws: Vec::new(),
             parts: 0,
@@ -110,8 +109,14 @@ impl LayersPass {
     /// Those of the device.
     pub fn resize(&mut self, size: [u32; 2]) -> Result<(), VulkanError> {
         let asked = [&self.images.motion, &self.images.ids].map(Option::is_some);
-        self.images = Images::new(self.built.device(), asked, size)?;
+        self.images = Images::new(self.builder.device(), asked, size)?;
         Ok(())
+    }
+
+    /// Draws with pipelines of this builder from now on.
+    pub fn rebuild(&mut self, builder: &Builder) {
+        self.builder = builder.clone();
+        self.draws.iter_mut().for_each(|draw| draw.pipeline = None);
     }
 
     /// Adds the next part of a fabric, with the layouts and sets that the fiber pass reads it by.
@@ -164,10 +169,7 @@ impl LayersPass {
                 continue;
             }
             let layouts = draw.layouts.each_ref();
-            let bindings = layouts.map(DescriptorLayout::bindings);
-            let what = format!("layers {:?} {:?} {bindings:?}", draw.strands, draw.features);
-            let build = || pipeline(&self.built, &draw.features, draw.strands, &layouts);
-            draw.pipeline = Some(self.built.get(what, build)?);
+            draw.pipeline = Some(pipeline(&self.builder, &draw.features, draw.strands, &layouts)?);
         }
         Ok(())
     }
@@ -243,37 +245,47 @@ impl LayersPass {
 }
 
 fn pipeline(
-    pipelines: &Pipelines,
+    builder: &Builder,
+    features: &Features,
+    strands: Strands,
+    layouts: &[&DescriptorLayout; 2],
+) -> Result<Pipeline, VulkanError> {
+    let fragment = match strands {
+        Strands::Core => "passes/layers.core.frag",
+        Strands::Regular => "passes/layers.frag",
+    };
+    let of_layers =
+        |stage, path| (stage, if stage == vk::ShaderStageFlags::FRAGMENT { fragment } else { path });
+    let stages = strands.stages().map(|(stage, path)| of_layers(stage, path));
+    let bindings = layouts.map(DescriptorLayout::bindings);
+    let what = format!("layers {strands:?} {features:?} {bindings:?}");
+    builder.get(&what, &stages.map(|(_, path)| path), |cache| {
+        let constants = specialization(features, vk::SampleCountFlags::TYPE_1, Manner::AtPixels);
+        let stages = Stages::new(builder, &stages, &constants, layouts)?;
+        build(builder, &stages, features, strands, layouts, cache)
+    })
+}
+
+fn build(
+    builder: &Builder,
+    stages: &Stages<'_>,
     features: &Features,
     strands: Strands,
     layouts: &[&DescriptorLayout],
+    cache: Option<&PipelineCache>,
 ) -> Result<Pipeline, VulkanError> {
-    let one = vk::SampleCountFlags::TYPE_1;
-    let constants = specialization(features, one, Manner::AtPixels);
-    let (name, fragment) = match strands {
-        Strands::Core => ("layers of core fibers", "passes/layers.core.frag"),
-        Strands::Regular => ("layers", "passes/layers.frag"),
+    let name = match strands {
+        Strands::Core => "layers of core fibers",
+        Strands::Regular => "layers",
     };
-    let stages = strands
-        .stages()
-        .into_iter()
-        .map(|(stage, file)| {
-            let file = if stage == vk::ShaderStageFlags::FRAGMENT { fragment } else { file };
-            Ok((stage, trimmed(spirv(file)?, &constants)?))
-        })
-        .collect::<Result<Vec<_>, VulkanError>>()?;
-    let stages: Vec<_> = stages
-        .iter()
-        .map(|(stage, spirv)| ShaderStage { stage: *stage, spirv, constants: &constants })
-        .collect();
     let formats = [(features.motion_layer, MOTION_FORMAT), (features.id_layer, ID_FORMAT)];
     let color_formats: Vec<vk::Format> =
         formats.into_iter().filter(|(there, _)| *there).map(|(_, format)| format).collect();
     Pipeline::graphics(
-        pipelines.device(),
+        builder.device(),
         &GraphicsPipelineInfo {
             name,
-            stages: &stages,
+            stages: &stages.infos(),
             topology: vk::PrimitiveTopology::PATCH_LIST,
             patch_control_points: 1,
             color_formats: &color_formats,
@@ -283,10 +295,10 @@ fn pipeline(
                 write: true,
                 bias: None,
             }),
-            samples: one,
+            samples: vk::SampleCountFlags::TYPE_1,
             set_layouts: layouts,
             push_constant_bytes: size_of::<Constants>() as u32,
-            cache: pipelines.cache(),
+            cache,
             ..Default::default()
         },
     )

@@ -1,5 +1,6 @@
 //! Where all passes have their pipelines built: each once, with the driver's cache of compiled ones, and timed.
 
+use crate::shaders::ShaderSet;
 use crate::vulkan::{Device, Pipeline, PipelineCache, VulkanError};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -36,7 +37,7 @@ impl Pipelines {
         &self.device
     }
 
-    /// What pipelines are to be built with.
+    /// The driver's cache of compiled pipelines.
     pub fn cache(&self) -> Option<&PipelineCache> {
         self.cache.as_ref()
     }
@@ -47,10 +48,7 @@ impl Pipelines {
     }
 
     /// The pipeline called `what`, which says all that decides it; built where it is not there yet.
-    ///
-    /// # Errors
-    /// Those of building it.
-    pub fn get(
+    fn get(
         &self,
         what: String,
         build: impl FnOnce() -> Result<Pipeline, VulkanError>,
@@ -70,6 +68,53 @@ impl Pipelines {
         }
         built.insert(what, pipeline.clone());
         Ok(pipeline)
+    }
+}
+
+/// What passes build their pipelines of, and where. Clones share the pipelines.
+#[derive(Clone)]
+pub struct Builder {
+    /// Those that are there.
+    pub pipelines: Arc<Pipelines>,
+    /// What they are built of.
+    pub shaders: ShaderSet,
+}
+
+impl Builder {
+    /// The device.
+    pub fn device(&self) -> &Arc<Device> {
+        self.pipelines.device()
+    }
+
+    /// The SPIR-V words of the shader at `path` under `glsl/`.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn words(&self, path: &str) -> Result<&[u32], VulkanError> {
+        self.shaders.get(path).ok_or_else(|| VulkanError::misuse(format!("no embedded shader `{path}`")))
+    }
+
+    /// The pipeline of the shaders at these paths called `what`, which says all else that decides it; built where it is
+    /// not there yet, with the cache that `build` is given.
+    ///
+    /// # Errors
+    /// Those of building it; of shaders that are not embedded [`VulkanError::Shaders`], unless the device was lost.
+    pub fn get(
+        &self,
+        what: &str,
+        paths: &[&str],
+        build: impl FnOnce(Option<&PipelineCache>) -> Result<Pipeline, VulkanError>,
+    ) -> Result<Pipeline, VulkanError> {
+        let Some(digest) = self.shaders.digest(paths) else {
+            return self.pipelines.get(what.to_owned(), || build(self.pipelines.cache()));
+        };
+        // What is kept for the next run is of embedded shaders alone: nobody asks for these again.
+        let built = self.pipelines.get(format!("{what} {digest:016x}"), || build(None));
+        built.map_err(|error| match error {
+            lost @ VulkanError::DeviceLost { .. } => lost,
+            VulkanError::Misuse { what } => VulkanError::Shaders(what),
+            other => VulkanError::Shaders(other.to_string()),
+        })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Adds a jittered frame to the picture.
 
 use super::image_kernel::ImageKernel;
-use super::pipelines::Pipelines;
+use super::pipelines::Builder;
 use super::targets::Targets;
 use crate::graph::{Pass, Use};
 use crate::vulkan::{ImageState, SpecializationConstants, VulkanError};
@@ -26,10 +26,10 @@ impl ResolvePass {
     ///
     /// # Errors
     /// Those of the device.
-    pub fn new(pipelines: &Pipelines, targets: &Targets) -> Result<Self, VulkanError> {
+    pub fn new(builder: &Builder, targets: &Targets) -> Result<Self, VulkanError> {
         let images = [&targets.frame, &targets.picture];
         let (shader, none) = ("passes/resolve.comp", SpecializationConstants::new());
-        let kernel = ImageKernel::new(pipelines, "resolve", shader, &none, images, size_of::<Constants>())?;
+        let kernel = ImageKernel::new(builder, "resolve", shader, &none, images, size_of::<Constants>())?;
         Ok(Self { kernel })
     }
 

@@ -1,15 +1,15 @@
 //! Draws every yarn as a ribbon of its outer radius as each light sees it (Wu & Yuksel 2019, Sec. 4.1).
 
-use super::pipelines::Pipelines;
-use super::spirv;
+use super::pipelines::Builder;
+use super::stages::{Stage, Stages};
 use super::strand_pipeline::{Manner, specialization};
 use super::targets::DEPTH_FORMAT;
 use crate::graph::{Pass, Use};
 use crate::scene::features::Features;
 use crate::vulkan::{
     Access, Buffer, ColorTarget, Commands, DepthState, DepthTarget, DescriptorLayout, DescriptorSet, Device,
-    GraphicsPipelineInfo, Image, ImageInfo, ImageState, ImageView, Pipeline, Rendering, ShaderStage,
-    VulkanError, trimmed, vk,
+    GraphicsPipelineInfo, Image, ImageInfo, ImageState, ImageView, Pipeline, PipelineCache, Rendering,
+    VulkanError, vk,
 };
 use std::sync::Arc;
 
@@ -65,13 +65,17 @@ struct Constants {
 
 /// One fabric's ribbons.
 struct Ribbons {
-    pipeline: Pipeline,
+    /// Built before they are first drawn.
+    pipeline: Option<Pipeline>,
+    features: Features,
+    layouts: [DescriptorLayout; 2],
     fabric: DescriptorSet,
     pieces: u32,
 }
 
 /// The pass over the yarns of all fabrics.
 pub struct ShadowMapPass {
+    builder: Builder,
     map: ShadowMap,
     views: Buffer,
     frame_set: Option<DescriptorSet>,
@@ -81,27 +85,43 @@ pub struct ShadowMapPass {
 
 impl ShadowMapPass {
     /// A pass that draws into `map` from `views`, each piece of yarn with `corners` corners.
-    pub fn new(map: ShadowMap, views: Buffer, corners: u32) -> Self {
-        Self { map, views, frame_set: None, ribbons: Vec::new(), corners }
+    pub fn new(builder: &Builder, map: ShadowMap, views: Buffer, corners: u32) -> Self {
+        let builder = builder.clone();
+        Self { builder, map, views, frame_set: None, ribbons: Vec::new(), corners }
+    }
+
+    /// Draws with pipelines of this builder from now on.
+    pub fn rebuild(&mut self, builder: &Builder) {
+        self.builder = builder.clone();
+        self.ribbons.iter_mut().for_each(|ribbons| ribbons.pipeline = None);
     }
 
     /// Adds a fabric of `pieces` pieces of yarn, with the layouts and sets that the fiber pass reads it by.
+    pub fn add_fabric(
+        &mut self,
+        features: &Features,
+        layouts: [&DescriptorLayout; 2],
+        sets: [&DescriptorSet; 2],
+        pieces: u32,
+    ) {
+        self.frame_set = Some(sets[0].clone());
+        self.ribbons.push(Ribbons {
+            pipeline: None,
+            features: *features,
+            layouts: layouts.map(Clone::clone),
+            fabric: sets[1].clone(),
+            pieces,
+        });
+    }
+
+    /// Builds the pipelines that are not there.
     ///
     /// # Errors
     /// Those of the device.
-    pub fn add_fabric(
-        &mut self,
-        pipelines: &Pipelines,
-        features: &Features,
-        layouts: &[&DescriptorLayout; 2],
-        sets: [&DescriptorSet; 2],
-        pieces: u32,
-    ) -> Result<(), VulkanError> {
-        let bindings = layouts.map(DescriptorLayout::bindings);
-        let what = format!("shadow map {:?} {bindings:?}", features.basis);
-        let pipeline = pipelines.get(what, || pipeline(pipelines, features, layouts))?;
-        self.frame_set = Some(sets[0].clone());
-        self.ribbons.push(Ribbons { pipeline, fabric: sets[1].clone(), pieces });
+    pub fn plan(&mut self) -> Result<(), VulkanError> {
+        for ribbons in self.ribbons.iter_mut().filter(|ribbons| ribbons.pipeline.is_none()) {
+            ribbons.pipeline = Some(pipeline(&self.builder, &ribbons.features, &ribbons.layouts.each_ref())?);
+        }
         Ok(())
     }
 
@@ -133,34 +153,45 @@ impl ShadowMapPass {
     fn draw(&self, commands: &Commands<'_>, view_index: u32) -> Result<(), VulkanError> {
         let Some(frame_set) = &self.frame_set else { return Ok(()) };
         for ribbons in &self.ribbons {
-            commands.bind_pipeline(&ribbons.pipeline);
-            commands.bind_sets(&ribbons.pipeline, &[frame_set, &ribbons.fabric]);
-            commands.push_constants(&ribbons.pipeline, &Constants { view_index })?;
+            let Some(pipeline) = &ribbons.pipeline else { continue };
+            commands.bind_pipeline(pipeline);
+            commands.bind_sets(pipeline, &[frame_set, &ribbons.fabric]);
+            commands.push_constants(pipeline, &Constants { view_index })?;
             commands.draw(self.corners, ribbons.pieces, 0, 0);
         }
         Ok(())
     }
 }
 
+const STAGES: [Stage; 2] = [
+    (vk::ShaderStageFlags::VERTEX, "passes/shadow_map.vert"),
+    (vk::ShaderStageFlags::FRAGMENT, "passes/shadow_map.frag"),
+];
+
 fn pipeline(
-    pipelines: &Pipelines,
+    builder: &Builder,
     features: &Features,
     layouts: &[&DescriptorLayout; 2],
 ) -> Result<Pipeline, VulkanError> {
-    let one = vk::SampleCountFlags::TYPE_1;
-    let constants = specialization(features, one, Manner::AtPixels);
-    let stage = |stage, file| -> Result<_, VulkanError> { Ok((stage, trimmed(spirv(file)?, &constants)?)) };
-    let stages = [
-        stage(vk::ShaderStageFlags::VERTEX, "passes/shadow_map.vert")?,
-        stage(vk::ShaderStageFlags::FRAGMENT, "passes/shadow_map.frag")?,
-    ];
-    let stages =
-        stages.each_ref().map(|(stage, spirv)| ShaderStage { stage: *stage, spirv, constants: &constants });
+    let bindings = layouts.map(DescriptorLayout::bindings);
+    let what = format!("shadow map {:?} {bindings:?}", features.basis);
+    builder.get(&what, &STAGES.map(|(_, path)| path), |cache| {
+        let constants = specialization(features, vk::SampleCountFlags::TYPE_1, Manner::AtPixels);
+        build(builder, &Stages::new(builder, &STAGES, &constants, layouts)?, layouts, cache)
+    })
+}
+
+fn build(
+    builder: &Builder,
+    stages: &Stages<'_>,
+    layouts: &[&DescriptorLayout],
+    cache: Option<&PipelineCache>,
+) -> Result<Pipeline, VulkanError> {
     Pipeline::graphics(
-        pipelines.device(),
+        builder.device(),
         &GraphicsPipelineInfo {
             name: "shadow map",
-            stages: &stages,
+            stages: &stages.infos(),
             topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
             color_formats: &[MAP_FORMAT],
             depth: Some(DepthState {
@@ -169,10 +200,10 @@ fn pipeline(
                 write: true,
                 bias: None,
             }),
-            samples: one,
+            samples: vk::SampleCountFlags::TYPE_1,
             set_layouts: layouts,
             push_constant_bytes: size_of::<Constants>() as u32,
-            cache: pipelines.cache(),
+            cache,
             ..Default::default()
         },
     )

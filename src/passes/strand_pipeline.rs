@@ -1,13 +1,12 @@
 //! Pipelines that expand yarn into strands: core fibers or single ones.
 
-use super::found;
-use super::pipelines::Pipelines;
+use super::pipelines::Builder;
+use super::stages::{Stage, Stages};
 use super::targets::{DEPTH_FORMAT, RADIANCE_FORMAT};
 use crate::scene::features::Features;
-use crate::shaders::ShaderSet;
 use crate::vulkan::{
-    DepthState, DescriptorLayout, GraphicsPipelineInfo, Pipeline, ShaderStage, SpecializationConstants,
-    VulkanError, trimmed, vk,
+    DepthState, DescriptorLayout, GraphicsPipelineInfo, Pipeline, PipelineCache, SpecializationConstants,
+    VulkanError, vk,
 };
 
 /// How strands are drawn.
@@ -41,8 +40,8 @@ pub enum Strands {
 }
 
 impl Strands {
-    pub(super) fn stages(self) -> [(vk::ShaderStageFlags, &'static str); 5] {
-        use vk::ShaderStageFlags as Stage;
+    pub(super) fn stages(self) -> [Stage; 5] {
+        use vk::ShaderStageFlags as Flags;
         let [control, evaluation, geometry, fragment] = match self {
             Self::Core => ["passes/core.tesc", "passes/core.tese", "passes/core.geom", "passes/core.frag"],
             Self::Regular => {
@@ -50,39 +49,46 @@ impl Strands {
             }
         };
         [
-            (Stage::VERTEX, "passes/fibers.vert"),
-            (Stage::TESSELLATION_CONTROL, control),
-            (Stage::TESSELLATION_EVALUATION, evaluation),
-            (Stage::GEOMETRY, geometry),
-            (Stage::FRAGMENT, fragment),
+            (Flags::VERTEX, "passes/fibers.vert"),
+            (Flags::TESSELLATION_CONTROL, control),
+            (Flags::TESSELLATION_EVALUATION, evaluation),
+            (Flags::GEOMETRY, geometry),
+            (Flags::FRAGMENT, fragment),
         ]
     }
 }
 
-/// Builds a pipeline of `shaders` for frames of `samples`.
+/// The pipeline for frames of `samples`.
 ///
 /// # Errors
 /// Those of the device.
 pub fn strand_pipeline(
-    pipelines: &Pipelines,
-    shaders: &ShaderSet,
+    builder: &Builder,
     features: &Features,
     (strands, manner): (Strands, Manner),
     samples: vk::SampleCountFlags,
-    layouts: &[&DescriptorLayout],
+    layouts: &[&DescriptorLayout; 2],
 ) -> Result<Pipeline, VulkanError> {
-    let constants = specialization(&manner.features(features), samples, manner);
-    let stages = strands
-        .stages()
-        .iter()
-        .map(|&(stage, file)| Ok((stage, trimmed(found(file, shaders.get(file))?, &constants)?)))
-        .collect::<Result<Vec<_>, VulkanError>>()?;
-    let stages: Vec<_> = stages
-        .iter()
-        .map(|(stage, spirv)| ShaderStage { stage: *stage, spirv, constants: &constants })
-        .collect();
+    let bindings = layouts.map(DescriptorLayout::bindings);
+    let what = format!("{strands:?} {manner:?} {features:?} {samples:?} {bindings:?}");
+    let stages = strands.stages();
+    builder.get(&what, &stages.map(|(_, path)| path), |cache| {
+        let constants = specialization(&manner.features(features), samples, manner);
+        let stages = Stages::new(builder, &stages, &constants, layouts)?;
+        build(builder, &stages, (strands, manner), samples, layouts, cache)
+    })
+}
+
+fn build(
+    builder: &Builder,
+    stages: &Stages<'_>,
+    (strands, manner): (Strands, Manner),
+    samples: vk::SampleCountFlags,
+    layouts: &[&DescriptorLayout],
+    cache: Option<&PipelineCache>,
+) -> Result<Pipeline, VulkanError> {
     Pipeline::graphics(
-        pipelines.device(),
+        builder.device(),
         &GraphicsPipelineInfo {
             name: match (strands, manner) {
                 (Strands::Core, _) => "core fibers",
@@ -90,7 +96,7 @@ pub fn strand_pipeline(
                 (Strands::Regular, Manner::Whole) => "every fiber",
                 (Strands::Regular, Manner::AtVertices) => "fibers, shaded at vertices",
             },
-            stages: &stages,
+            stages: &stages.infos(),
             topology: vk::PrimitiveTopology::PATCH_LIST,
             patch_control_points: 1,
             color_formats: &[RADIANCE_FORMAT],
@@ -102,7 +108,7 @@ pub fn strand_pipeline(
             }),
             samples,
             set_layouts: layouts,
-            cache: pipelines.cache(),
+            cache,
             ..Default::default()
         },
     )

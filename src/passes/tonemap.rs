@@ -1,7 +1,7 @@
 //! From linear radiance to what a display shows.
 
 use super::image_kernel::ImageKernel;
-use super::pipelines::Pipelines;
+use super::pipelines::Builder;
 use super::targets::Targets;
 use crate::graph::{Pass, Use};
 use crate::scene::file::DisplayTable;
@@ -27,16 +27,11 @@ impl TonemapPass {
     ///
     /// # Errors
     /// Those of the device.
-    pub fn new(
-        pipelines: &Pipelines,
-        targets: &Targets,
-        display: &DisplayTable,
-    ) -> Result<Self, VulkanError> {
+    pub fn new(builder: &Builder, targets: &Targets, display: &DisplayTable) -> Result<Self, VulkanError> {
         let images = [&targets.picture, &targets.display];
         let shader = "passes/tonemap.comp";
         let special = SpecializationConstants::new().u32(0, display.tone as u32).bool(1, display.transparent);
-        let kernel =
-            ImageKernel::new(pipelines, "tonemap", shader, &special, images, size_of::<Constants>())?;
+        let kernel = ImageKernel::new(builder, "tonemap", shader, &special, images, size_of::<Constants>())?;
         let constants = Constants {
             background: display.background.map(|c| c as f32),
             exposure_scale: display.exposure_stops.exp2() as f32,

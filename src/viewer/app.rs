@@ -28,6 +28,9 @@ pub struct Opening {
     pub look: Look,
     /// A picture to compare with.
     pub reference: Option<PathBuf>,
+    /// A folder of shaders to draw with.
+    #[cfg(feature = "hot-reload")]
+    pub shaders: Option<PathBuf>,
     /// Width and height of the window in pixels.
     pub size: [u32; 2],
     /// The device of pictures; that of the window is opened likewise.
@@ -113,10 +116,17 @@ impl Open {
                 drop(from_threads.send_event(Woken));
             }
         });
+        #[cfg(feature = "hot-reload")]
+        let by_shaders = proxy.clone();
         let wake = move || drop(proxy.send_event(Woken));
         let painter = Painter::start(device.clone(), opening.kept, wake);
         let mut desk = Desk::new(opening.document, painter, opening.look, opening.recent);
         desk.comparing = Comparing::new(opening.references, &device);
+        #[cfg(feature = "hot-reload")]
+        if let Some(folder) = opening.shaders {
+            let wake = move || drop(by_shaders.send_event(Woken));
+            desk.reload = Some(super::reload::Reload::start(folder, wake)?);
+        }
         if let Some(reference) = &opening.reference {
             desk.canvas.compare_with(reference, gui.context())?;
         }

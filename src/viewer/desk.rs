@@ -32,8 +32,8 @@ pub struct Look {
     pub most_samples: u32,
     /// Count what is drawn.
     pub statistics: bool,
-    /// Other shaders than those of this build.
-    pub shaders: Option<ShaderSet>,
+    /// What they are drawn with.
+    pub shaders: ShaderSet,
 }
 
 /// A document on the desk.
@@ -42,6 +42,8 @@ pub struct Desk {
     pub document: Document,
     pub(super) painter: Painter,
     pub(super) look: Look,
+    #[cfg(feature = "hot-reload")]
+    pub(super) reload: Option<super::reload::Reload>,
     /// From where it is looked at, once that was dragged: not part of what is undone.
     pub(super) camera: Option<CameraTable>,
     pub(super) shown: Option<Box<Shown>>,
@@ -73,6 +75,8 @@ impl Desk {
             document,
             painter,
             look,
+            #[cfg(feature = "hot-reload")]
+            reload: None,
             camera: None,
             shown: None,
             canvas: Canvas::default(),
@@ -122,6 +126,10 @@ impl Desk {
 
     /// Whether nothing better follows unless something changes.
     pub fn is_settled(&self) -> bool {
+        #[cfg(feature = "hot-reload")]
+        if self.reload.as_ref().is_some_and(super::reload::Reload::is_awaited) {
+            return false;
+        }
         let settled = |shown: &Shown| shown.settled && shown.revision == self.wanted_revision;
         self.trouble.is_some() || self.shown.as_deref().is_some_and(settled)
     }
@@ -148,6 +156,8 @@ impl Desk {
         }
         self.canvas.hear(context);
         self.hear_reference(context);
+        #[cfg(feature = "hot-reload")]
+        self.hear_shaders();
         self.ended.take().map_or(Ok(()), Err)
     }
 
@@ -198,7 +208,11 @@ impl Desk {
                 });
             });
         }
-        egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| self.picture(ui));
+        egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| {
+            #[cfg(feature = "hot-reload")]
+            self.show_shader_trouble(ui, ui.max_rect());
+            self.picture(ui);
+        });
         if self.document.scene_file().camera != before {
             // What was typed counts, not what was dragged before.
             self.camera = None;

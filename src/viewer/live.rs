@@ -5,6 +5,7 @@ use super::desk::Look;
 use super::painter::Shown;
 use super::references::Known;
 use crate::metrics::error_vs_time::{Outcome, front};
+use crate::shaders::ShaderSet;
 use egui_plot::{Line, Plot, PlotPoints, Points, uniform_grid_spacer};
 
 /// The panel of figures.
@@ -13,20 +14,22 @@ pub struct Live {
     pub is_open: bool,
     counted: bool,
     samples: u32,
+    shaders: ShaderSet,
 }
 
 impl Default for Live {
     fn default() -> Self {
-        Self { is_open: true, counted: false, samples: 0 }
+        Self { is_open: true, counted: false, samples: 0, shaders: ShaderSet::default() }
     }
 }
 
 impl Live {
     /// Whether pictures are to be drawn otherwise than the last time that somebody asked.
     pub fn look_changed(&mut self, look: &Look) -> bool {
-        let now = (look.statistics, look.most_samples);
-        let changed = now != (self.counted, self.samples);
-        (self.counted, self.samples) = now;
+        let now = (look.statistics, look.most_samples, &look.shaders);
+        let changed = now != (self.counted, self.samples, &self.shaders);
+        (self.counted, self.samples, self.shaders) =
+            (look.statistics, look.most_samples, look.shaders.clone());
         changed
     }
 

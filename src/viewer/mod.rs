@@ -27,9 +27,12 @@ pub mod panel;
 mod playing;
 pub mod recent;
 pub mod references;
+#[cfg(feature = "hot-reload")]
+mod reload;
 mod save;
 pub mod scripts;
 pub mod showing;
 mod stages;
 mod toolbar;
+mod tried;
 mod work;

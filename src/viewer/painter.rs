@@ -32,8 +32,8 @@ pub struct Wanted {
     pub statistics: bool,
     /// Most samples a pixel, to which pictures are refined.
     pub most_samples: u32,
-    /// Other shaders than those of this build.
-    pub shaders: Option<ShaderSet>,
+    /// What it is drawn with.
+    pub shaders: ShaderSet,
 }
 
 /// A picture, and what is known of it.
@@ -56,6 +56,8 @@ pub struct Shown {
     pub revision: u64,
     /// From when it was wanted until it was drawn.
     pub delay: Duration,
+    /// Why it is drawn with other shaders than those that were wanted, if it is.
+    pub refused: Option<String>,
     /// What a user should know of how its yarns were read.
     pub notes: Vec<String>,
 }

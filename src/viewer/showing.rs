@@ -178,6 +178,7 @@ impl Showing {
             settled,
             revision,
             delay,
+            refused: None,
             notes: scene.fabrics.iter().flat_map(|fabric| fabric.notes.clone()).collect(),
         }
     }
@@ -224,16 +225,19 @@ impl Showing {
         Ok(self.drafts[detail as usize].insert(draft))
     }
 
-    /// Draws with other shaders from now on.
+    /// Draws with these shaders from now on; whether they are others than before.
     ///
     /// # Errors
-    /// Those of the device, which may find fault with the shaders.
-    pub fn set_shaders(&mut self, shaders: ShaderSet) -> Result<(), Error> {
-        if self.renderer.has_shaders(&shaders) {
-            return Ok(());
+    /// As [`Renderer::set_shaders`].
+    pub fn set_shaders(&mut self, shaders: &ShaderSet) -> Result<bool, Error> {
+        if self.renderer.shaders() == shaders {
+            return Ok(false);
         }
-        self.drafts = [None, None];
-        Ok(self.renderer()?.set_shaders(shaders)?)
+        for draft in self.drafts.iter_mut().flatten() {
+            draft.set_shaders(shaders.clone())?;
+        }
+        self.renderer.set_shaders(shaders.clone())?;
+        Ok(true)
     }
 
     /// Frames that its motions have; none where nothing moves.

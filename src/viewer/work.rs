@@ -4,6 +4,7 @@ use super::draft::Edit;
 use super::painter::{News, Order};
 use super::showing::{Followed, Showing};
 use super::stages::{Paces, Situation, Stage, whole_request};
+use super::tried::Tried;
 use crate::error::Error;
 use crate::frame::tables::Tables;
 use crate::io::kept::Kept;
@@ -41,6 +42,7 @@ pub(super) struct Work {
     newest: Arc<AtomicU64>,
     models: Models,
     paces: Paces,
+    tried: Tried,
     wanted: Option<Order>,
     showing: Option<Showing>,
     /// A scene that is not shown before its tables are there.
@@ -75,6 +77,7 @@ impl Work {
             newest,
             models: Models::default(),
             paces: Paces::default(),
+            tried: Tried::default(),
             drawn: (0, Stage::Nothing),
             edit: Edit::Cloth,
             wanted: None,
@@ -144,11 +147,21 @@ impl Work {
             Err(error @ Error::Vulkan(VulkanError::TooLarge { .. })) => {
                 (self.tell)(News::Trouble(error.to_string()))
             }
+            Err(Error::Vulkan(VulkanError::Shaders(why))) if self.goes_back(&why) => {
+                return self.trouble_is_told(Self::follow);
+            }
             Err(error @ Error::Vulkan(_)) => return Err(error),
             Err(error) => (self.tell)(News::Trouble(error.to_string())),
             Ok(()) => (),
         }
         Ok(())
+    }
+
+    /// Takes note that shaders are refused; whether there are others to draw with.
+    fn goes_back(&mut self, why: &str) -> bool {
+        let Some(Order { wanted, .. }) = &self.wanted else { return false };
+        tracing::warn!("the device refuses shaders: {}", why.replace('\n', "; "));
+        self.tried.refuse(&wanted.shaders, why)
     }
 
     /// Follows what is wanted as far as what is there can.
@@ -166,6 +179,8 @@ impl Work {
             awaited.file = wanted.file.clone();
             return Ok(());
         }
+        let shaders = self.tried.instead_of(&wanted.shaders);
+        let reshaded = self.showing.as_mut().map(|showing| showing.set_shaders(&shaders)).transpose()?;
         let followed = match &mut self.showing {
             Some(showing) if showing.counts() == wanted.statistics => {
                 showing.follow(&wanted.file, place, request, &mut self.models)?
@@ -175,12 +190,10 @@ impl Work {
                 Followed::Awaited(Box::new(scene))
             }
         };
-        if let Some(showing) = &mut self.showing {
-            showing.set_shaders(wanted.shaders.clone().unwrap_or_default())?;
-        }
         match followed {
             Followed::Awaited(scene) => {
                 self.made += 1;
+                self.tried.try_again();
                 self.awaited = Some(scene);
                 // What is shown meanwhile is not what is wanted.
                 self.next = Stage::Nothing;
@@ -189,8 +202,15 @@ impl Work {
             Followed::Shown { edit } => {
                 self.made += u64::from(edit != Edit::View);
                 self.edit = edit;
+                if edit != Edit::View {
+                    self.tried.try_again();
+                }
             }
             Followed::Already => (),
+        }
+        if reshaded == Some(true) {
+            // It may be seen anywhere.
+            self.edit = Edit::Cloth;
         }
         self.awaited = None;
         self.next = self.first();
@@ -283,6 +303,8 @@ impl Work {
         if stage == Stage::Nothing {
             return Ok(());
         }
+        let shaders = self.tried.instead_of(&wanted.shaders);
+        showing.set_shaders(&shaders)?;
         let newest = &self.newest;
         let goes_on = |_| !matches!(stage, Stage::Whole(_)) || newest.load(Ordering::Relaxed) == *revision;
         let asked = self.paces.request(stage, wanted);
@@ -303,11 +325,14 @@ impl Work {
         };
         self.paces.learn(stage, asked.size, wanted.size, started.elapsed());
         let (moving, revision, delay) = (wanted.moving, *revision, since.elapsed());
+        self.tried.drew(&shaders);
         self.drawn = (revision, stage);
         self.next = self.situation().map_or(Stage::Nothing, |now| self.paces.after(stage, &now));
         let Some(showing) = &self.showing else { return Ok(()) };
         let settled = self.next == Stage::Nothing && showing.stale.is_none() && !moving;
-        let shown = showing.shown(picture, draft, (revision, settled), delay);
+        let mut shown = showing.shown(picture, draft, (revision, settled), delay);
+        let wanted = self.wanted.as_ref().map(|order| &order.wanted.shaders);
+        shown.refused = wanted.and_then(|wanted| self.tried.why_not(wanted)).map(str::to_owned);
         (self.tell)(News::Picture(Box::new(shown)));
         Ok(())
     }

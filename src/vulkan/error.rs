@@ -101,6 +101,9 @@ pub enum VulkanError {
         /// What was wrong, with the name of the resource.
         what: String,
     },
+    /// Shaders that are not this build's own do not fit, or the device refuses them.
+    #[error("{0}")]
+    Shaders(String),
     /// Any other Vulkan result.
     #[error("{what} failed: {result} ({result:?}); `worsted doctor` shows what this driver offers")]
     Other {
@@ -154,6 +157,7 @@ impl VulkanError {
             | Self::TooLarge { .. }
             | Self::Leaked { .. }
             | Self::Misuse { .. }
+            | Self::Shaders(_)
             | Self::Other { .. } => 4,
         }
     }

@@ -107,8 +107,9 @@ impl ReadyStage {
             )));
         }
         let info = vk::ShaderModuleCreateInfo::default().code(stage.spirv);
-        // SAFETY: the words are a SPIR-V module by their header. The shaders come from this crate's
-        // own build, which compiled them; they are never read from a user's file.
+        // SAFETY: the words are a SPIR-V module by their header. They come from the compiler: of this crate's own
+        // build, or of a text that a user edits, with the interface of the shader that it replaces. No file of
+        // SPIR-V is ever read.
         let module = unsafe { device.raw().create_shader_module(&info, None) }
             .map_err(|r| VulkanError::from_vk(what(), r))?;
         device.set_name(module, &what());

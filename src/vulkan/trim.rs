@@ -91,6 +91,7 @@ fn evaluate(op: Op, operands: &[Operand], known: &Known) -> Option<u32> {
 fn straighten(function: &mut Function, globals: &Known) -> bool {
     let mut known = globals.clone();
     let mut decided = false;
+    let headers = loop_headers(&function.blocks);
     for block in &mut function.blocks {
         for instruction in &block.instructions {
             if let Some(id) = instruction.result_id
@@ -99,7 +100,7 @@ fn straighten(function: &mut Function, globals: &Known) -> bool {
                 known.insert(id, value);
             }
         }
-        decided |= decide(block, &known);
+        decided |= decide(block, &known, &headers);
     }
     let reached = reached(&function.blocks);
     let needed = needed_as_targets(&function.blocks, &reached);
@@ -118,8 +119,19 @@ fn straighten(function: &mut Function, globals: &Known) -> bool {
     decided
 }
 
-/// Replaces a branch whose condition is known by a jump, if it is.
-fn decide(block: &mut Block, known: &Known) -> bool {
+/// Labels of the blocks that loops begin with.
+fn loop_headers(blocks: &[Block]) -> HashSet<Word> {
+    let is_header =
+        |block: &&Block| block.instructions.iter().any(|merge| merge.class.opcode == Op::LoopMerge);
+    blocks.iter().filter(is_header).filter_map(label).collect()
+}
+
+/// Replaces a branch whose condition is known by a jump, if it is. What leads back to a loop's header stays: a loop must have
+/// a way back, even one that is never taken.
+fn decide(block: &mut Block, known: &Known, headers: &HashSet<Word>) -> bool {
+    if successors(block).any(|target| headers.contains(&target)) {
+        return false;
+    }
     let Some(last) = block.instructions.last() else { return false };
     let selector = || last.operands.first()?.id_ref_any().and_then(|id| known.get(&id).copied());
     let target = match last.class.opcode {

@@ -6,6 +6,7 @@
 mod constants;
 #[path = "../support/device.rs"]
 mod device;
+mod edited;
 mod interface;
 mod reflection;
 mod rust_side;

@@ -10,7 +10,7 @@ use worsted::shaders;
 use worsted::vulkan::{trimmed, vk};
 
 /// What `spirv-val` says of a module; `Ok` if it is valid.
-fn validate(words: &[u32]) -> Result<(), String> {
+pub fn validate(words: &[u32]) -> Result<(), String> {
     let mut child = Command::new("spirv-val")
         .args(["--target-env", "vulkan1.3", "-"])
         .stdin(Stdio::piped())
@@ -34,7 +34,7 @@ fn every_embedded_shader_is_valid() {
 }
 
 /// Everything, nothing, and everything but one thing.
-fn variants() -> Vec<Features> {
+pub fn variants() -> Vec<Features> {
     let edits: [fn(&mut Features); 19] = [
         |_| (),
         |f| f.statistics = false,

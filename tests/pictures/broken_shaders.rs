@@ -2,7 +2,7 @@
 //!
 //! Whatever picture is the judge is a parameter: see [`Judge`].
 
-#[path = "../../tools/glsl.rs"]
+#[path = "../../src/shaders/glsl.rs"]
 mod glsl;
 
 use crate::device::shared;
@@ -134,7 +134,7 @@ fn broken(changes: &[Change]) -> Result<ShaderSet, String> {
     let mut replaced = BTreeMap::new();
     for path in STRANDS {
         let stage = glsl::stage_of(path).expect("a stage's extension");
-        let words = glsl::compile(path, stage, &|path| text(path, changes).ok())?;
+        let words = glsl::compile(path, stage, &|path| text(path, changes))?;
         if worsted::shaders::get(path) != Some(&words) {
             replaced.insert(path.to_owned(), words);
         }

@@ -2,7 +2,7 @@
 
 #[path = "../support/device.rs"]
 mod device;
-#[path = "../../tools/glsl.rs"]
+#[path = "../../src/shaders/glsl.rs"]
 mod glsl;
 mod stable_forms;
 

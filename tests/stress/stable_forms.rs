@@ -71,10 +71,10 @@ const PUBLISHED: [Published; 6] = [
 
 /// The kernel with one text changed; an error where that does not stand in it exactly once.
 fn changed(case: &Published) -> Result<ShaderSet, String> {
-    let read = |path: &str| -> Option<String> {
+    let read = |path: &str| -> Result<String, String> {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("glsl").join(path);
-        let text = std::fs::read_to_string(file).ok()?;
-        Some(if path == case.file { text.replace(case.stable, case.published) } else { text })
+        let text = std::fs::read_to_string(file).map_err(|e| e.to_string())?;
+        Ok(if path == case.file { text.replace(case.stable, case.published) } else { text })
     };
     let whole = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("glsl").join(case.file));
     let found = whole.map_err(|e| e.to_string())?.matches(case.stable).count();

@@ -6,6 +6,8 @@
 
 mod desktop;
 mod moving;
+#[cfg(feature = "hot-reload")]
+mod reload;
 mod session;
 
 use session::{Session, Shot};

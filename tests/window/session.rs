@@ -36,6 +36,8 @@ pub struct Session {
     window: String,
     log: Receiver<String>,
     heard: Vec<String>,
+    /// Lines that were asked for are before this one.
+    asked: usize,
     /// What is edited.
     pub scene: PathBuf,
     _home: tempfile::TempDir,
@@ -111,6 +113,7 @@ impl Session {
             window: String::new(),
             log,
             heard: Vec::new(),
+            asked: 0,
             scene,
             _home: home,
         };
@@ -162,13 +165,19 @@ impl Session {
         }
     }
 
-    /// Waits until the log says this.
-    pub fn until_said(&mut self, words: &str) {
+    /// Waits for a line of the log that has this, behind the one that was waited for last.
+    pub fn until_said(&mut self, what: &str) -> String {
         let started = Instant::now();
-        while !self.heard.last().is_some_and(|line| line.contains(words)) {
+        loop {
+            while let Some(line) = self.heard.get(self.asked) {
+                self.asked += 1;
+                if line.contains(what) {
+                    return line.clone();
+                }
+            }
             match self.log.recv_timeout(PATIENCE.saturating_sub(started.elapsed())) {
                 Ok(line) => self.heard.push(line),
-                Err(_) => panic!("nobody says {words:?}; the log: {:#?}", self.heard),
+                Err(_) => panic!("expected {what:?}; the log: {:#?}", self.heard),
             }
         }
     }

@@ -181,7 +181,7 @@ fn compiled(extension: &str) -> Result<Vec<u32>, Error> {
     let repository = Path::new(env!("CARGO_MANIFEST_DIR"));
     let read = |path: &str| {
         let folder = if path.starts_with("minimal/") { "tools" } else { "glsl" };
-        std::fs::read_to_string(repository.join(folder).join(path)).ok()
+        std::fs::read_to_string(repository.join(folder).join(path)).map_err(|e| e.to_string())
     };
     let path = format!("minimal/yarn.{extension}");
     let stage = glsl::stage_of(&path).ok_or_else(|| Error::Failed(format!("{path}: no stage")))?;

@@ -3,7 +3,7 @@
 //! 1.1 times the time, or draws something else.
 
 mod bare;
-#[path = "../glsl.rs"]
+#[path = "../../src/shaders/glsl.rs"]
 mod glsl;
 mod hand_cut;
 
