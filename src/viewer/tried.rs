@@ -5,7 +5,7 @@ use crate::shaders::ShaderSet;
 /// What is known of shaders so far.
 #[derive(Default)]
 pub struct Tried {
-    /// Those that something was drawn with last.
+    /// Those that something whole was drawn with last.
     good: ShaderSet,
     /// Those that were refused last, and why.
     refused: Option<(ShaderSet, String)>,

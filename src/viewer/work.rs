@@ -325,7 +325,10 @@ impl Work {
         };
         self.paces.learn(stage, asked.size, wanted.size, started.elapsed());
         let (moving, revision, delay) = (wanted.moving, *revision, since.elapsed());
-        self.tried.drew(&shaders);
+        if draft.is_none() {
+            // Drafts have not all pipelines.
+            self.tried.drew(&shaders);
+        }
         self.drawn = (revision, stage);
         self.next = self.situation().map_or(Stage::Nothing, |now| self.paces.after(stage, &now));
         let Some(showing) = &self.showing else { return Ok(()) };
