@@ -157,7 +157,7 @@ impl Open {
     /// Asks for the window to be drawn, but not more often than it needs to be seen: on a CPU device that takes the time
     /// of pictures.
     fn draw_soon(&mut self) {
-        let least = if self.device.is_cpu() { Duration::from_millis(40) } else { Duration::ZERO };
+        let least = if self.device.is_cpu() { Duration::from_millis(60) } else { Duration::ZERO };
         let next = self.drawn.map_or_else(Instant::now, |drawn| drawn + least);
         if next <= Instant::now() {
             self.gui.window().request_redraw();

@@ -10,7 +10,7 @@ const THIN_SAMPLES: f64 = 1.0;
 const DETAIL_SAMPLES: f64 = 4.0;
 /// Most straight pieces of a fiber, and of a core, over one piece of yarn.
 const FIBER_PIECES: u32 = 6;
-const CORE_PIECES: u32 = 4;
+const CORE_PIECES: u32 = 2;
 /// Few vertices come of each patch, so that many fit into a draw.
 const PATCHES: u32 = 256;
 
