@@ -111,14 +111,22 @@ pub(super) fn load_scene(
 ) -> Result<Scene, Error> {
     let camera = view.and_then(|(view, _)| view.camera.as_deref());
     let mut scene = Scene::load(&args.path, &assignments(args, time.frame, camera)?)?;
-    if let Some(frame) = scene.file.animation.frame {
-        let mut movers = Movers::open(&scene)?;
-        if let Some((_, size)) = view {
-            movers.fix_camera(&mut scene, size)?;
-        }
-        movers.put(&mut scene, frame)?;
-    }
+    pose(&mut scene, view.map(|(_, size)| size))?;
     Ok(scene)
+}
+
+/// Puts fabrics where the frame that the scene asks for has them; a camera for pictures of `size` is fitted as for any
+/// frame.
+///
+/// # Errors
+/// A frame that cannot be read.
+pub(super) fn pose(scene: &mut Scene, size: Option<[u32; 2]>) -> Result<(), Error> {
+    let Some(frame) = scene.file.animation.frame else { return Ok(()) };
+    let mut movers = Movers::open(scene)?;
+    if let Some(size) = size {
+        movers.fix_camera(scene, size)?;
+    }
+    Ok(movers.put(scene, frame)?)
 }
 
 /// What `--motion`, `--frame`, `--camera`, `--seed` and `--set` set.

@@ -1,12 +1,12 @@
 //! References for the window: traced as `worsted bench` traces them, and kept in the same cache.
 
+use super::job::pose;
 use crate::bench::budget::{Facts, promises};
 use crate::bench::fronts::Fronts;
 use crate::bench::references::reference;
 use crate::bench::truth::TruthSettings;
 use crate::error::Error;
 use crate::io::cache::Cache;
-use crate::motion::mover::Movers;
 use crate::scene::Scene;
 use crate::viewer::references::{Asked, Found, Known, References};
 
@@ -19,11 +19,7 @@ pub struct Traced {
 impl References for Traced {
     fn reference(&self, asked: &Asked, goes_on: &dyn Fn(f64) -> bool) -> Result<Option<Found>, Error> {
         let mut scene = Scene::from_file(asked.file.clone(), &asked.folder, &asked.name)?;
-        if let Some(frame) = scene.file.animation.frame {
-            let mut movers = Movers::open(&scene)?;
-            movers.fix_camera(&mut scene, asked.size)?;
-            movers.put(&mut scene, frame)?;
-        }
+        pose(&mut scene, Some(asked.size))?;
         let settings = TruthSettings { samples: asked.samples, floors: Vec::new() };
         let mut stopped = false;
         let truth = reference(&self.cache, &scene, asked.size, &settings, &mut |share| {

@@ -108,8 +108,8 @@ impl Canvas {
     }
 
     /// What the picture is compared with, and whether a picture of `file` has anything to do with it.
-    pub fn other(&self, file: &SceneFile) -> Option<(&str, bool)> {
-        self.other.as_ref().map(|other| (other.label.as_str(), other.fits(file)))
+    pub fn other(&self, file: impl FnOnce() -> SceneFile) -> Option<(&str, bool)> {
+        self.other.as_ref().map(|other| (other.label.as_str(), other.fits(&file())))
     }
 
     /// Takes a picture to show.

@@ -26,7 +26,7 @@ const SAID: Duration = Duration::from_secs(8);
 const TICK: Duration = Duration::from_millis(100);
 
 /// How pictures are drawn that the scene says nothing of.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Look {
     /// Most samples a pixel.
     pub most_samples: u32,

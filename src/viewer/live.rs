@@ -5,31 +5,28 @@ use super::desk::Look;
 use super::painter::Shown;
 use super::references::Known;
 use crate::metrics::error_vs_time::{Outcome, front};
-use crate::shaders::ShaderSet;
 use egui_plot::{Line, Plot, PlotPoints, Points, uniform_grid_spacer};
 
 /// The panel of figures.
 pub struct Live {
     /// Whether it is shown.
     pub is_open: bool,
-    counted: bool,
-    samples: u32,
-    shaders: ShaderSet,
+    look: Option<Look>,
 }
 
 impl Default for Live {
     fn default() -> Self {
-        Self { is_open: true, counted: false, samples: 0, shaders: ShaderSet::default() }
+        Self { is_open: true, look: None }
     }
 }
 
 impl Live {
     /// Whether pictures are to be drawn otherwise than the last time that somebody asked.
     pub fn look_changed(&mut self, look: &Look) -> bool {
-        let now = (look.statistics, look.most_samples, &look.shaders);
-        let changed = now != (self.counted, self.samples, &self.shaders);
-        (self.counted, self.samples, self.shaders) =
-            (look.statistics, look.most_samples, look.shaders.clone());
+        let changed = self.look.as_ref() != Some(look);
+        if changed {
+            self.look = Some(look.clone());
+        }
         changed
     }
 

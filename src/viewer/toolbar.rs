@@ -122,8 +122,8 @@ fn comparing(ui: &mut egui::Ui, desk: &mut Desk) {
         desk.canvas.keep(ui.ctx(), shown);
     }
     desk.reference_menu(ui);
-    let file = desk.file();
-    let Some((other, fits)) = desk.canvas.other(&file).map(|(name, fits)| (name.to_owned(), fits)) else {
+    let Some((other, fits)) = desk.canvas.other(|| desk.file()).map(|(name, fits)| (name.to_owned(), fits))
+    else {
         return;
     };
     let shows = desk.canvas.shows;
